@@ -4,7 +4,6 @@ use crate::campaign::{Plan, event_columns};
 use crate::dynamics::actuation::{ActuationLaw, BodyState, Laws, WheelState};
 use crate::dynamics::orbit_path::OrbitPath;
 use crate::ensemble::loop_errors::LoopErrors;
-use crate::ensemble::pilots::{Flown, Pilots};
 use crate::ensemble::settings::{Engines, nominal, propagator};
 use crate::ensemble::surface;
 use crate::loops::loop_record::SharedRecord;
@@ -12,7 +11,7 @@ use crate::loops::{LawContext, LawRuns};
 use crate::math::Isa;
 use crate::math::vector::dot;
 use crate::observables::nominal_attitude::NominalAttitude;
-use crate::observables::{FlownRun, Group, LawSeries, Observer, Request};
+use crate::observables::{FlownRun, Group, LawSeries, LoopError, Observer, Request};
 use crate::propagation::{CompletedRun, Engine, PropagationSettings};
 use crate::run::{Grid, Outcome, StateField, StateFields, StateTable, Status, Telemetry};
 use crate::sampling::SampleId;
@@ -308,6 +307,9 @@ impl<'p> Means<'p> {
     }
 }
 
+/// What the loop does to the errors of a run.
+pub type Judge<'p> = Box<dyn Fn(&CompletedRun<'_>) -> LoopError + 'p>;
+
 /// Runs of one plan on one grid, independent of earlier ones.
 pub struct ObservedRuns<'p> {
     pub means: Means<'p>,
@@ -316,8 +318,8 @@ pub struct ObservedRuns<'p> {
     row: Vec<f64>,
     /// Runs under a law are judged by these errors, if known.
     pub errors: LoopErrors,
-    /// Set for flights of the nominal run alone, with its twin if it is judged.
-    of_nominal: Option<Option<Pilots<'p>>>,
+    /// Set for flights of the nominal run alone.
+    of_nominal: Option<Option<Judge<'p>>>,
 }
 
 pub struct ObservedRun<'a> {
@@ -329,10 +331,10 @@ pub struct ObservedRun<'a> {
 }
 
 impl<'p> ObservedRuns<'p> {
-    /// For the nominal run alone, which is compared with itself, and judged by its twin in `pilots`.
+    /// For the nominal run alone, which is compared with itself, and judged by `judge`.
     #[must_use]
-    pub fn of_nominal(self, pilots: Option<Pilots<'p>>) -> Self {
-        ObservedRuns { of_nominal: Some(pilots), ..self }
+    pub fn of_nominal(self, judge: Option<Judge<'p>>) -> Self {
+        ObservedRuns { of_nominal: Some(judge), ..self }
     }
 
     #[must_use]
@@ -343,12 +345,11 @@ impl<'p> ObservedRuns<'p> {
     pub fn fly(&mut self, runs: Runs<'_>, finish: &mut dyn FnMut(ObservedRun<'_>)) {
         let ObservedRuns { means: Means { plan, request, engines }, flights, observer, row, errors, of_nominal } = self;
         flights.fly(runs, &mut |run, of_law| {
-            if let Some(pilots) = of_nominal {
+            if let Some(judge) = of_nominal {
                 if request.groups.contains(Group::Motion) {
                     observer.set_nominal(NominalAttitude::of(run.table, run.outcome));
                 }
-                let own = || Some(Flown::of(&run, &[], &plan.grid));
-                errors.nominal = pilots.as_ref().map(|pilots| pilots.error(own()));
+                errors.nominal = judge.as_ref().map(|judge| judge(&run));
             }
             observer.set_loop_error(runs.draws.get(run.index).and_then(|draw| errors.of(draw.sample)));
             let status = observe(plan, observer, engines.isa, &runs.scenes[run.index], (&run, of_law), row);

@@ -7,7 +7,7 @@
 
 use crate::campaign::{Plan, Requirement, SceneDraws};
 use crate::ensemble::event_finder::{self, EventFinder, RunEnd};
-use crate::ensemble::flights::{LawDraw, Means, Runs, end_of, nominal_attitude};
+use crate::ensemble::flights::{Judge, LawDraw, Means, Runs, end_of, nominal_attitude};
 use crate::ensemble::loop_errors::LoopErrors;
 use crate::ensemble::settings::Engines;
 use crate::ensemble::supervision::{Alone, Crew};
@@ -140,6 +140,11 @@ impl<'p> Pilots<'p> {
         let mut pilots = Pilots { plan, isa, crew, patient, finer: TWIN.plan(plan), scenes, draws, twins: Vec::new() };
         pilots.twins = pilots.fly(pilots.plans()[1]);
         pilots
+    }
+
+    /// The judge of the nominal run, as it is flown at the campaign's points.
+    pub fn judge(self) -> Judge<'p> {
+        Box::new(move |run| self.error(Some(Flown::of(run, &[], &self.plan.grid))))
     }
 
     /// The plans of a pilot and of its twin, with the parts of their arcs.

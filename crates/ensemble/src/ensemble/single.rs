@@ -62,7 +62,7 @@ impl SingleRun {
         let ends = EndFinder::new(plan, Engines::of(isa));
         if is_nominal && grid == plan.grid && ends.is_none() {
             let mut runs = SingleRuns::without_ends(plan, grid, isa, requests, (None, false));
-            runs.runs = runs.runs.of_nominal(Pilots::of_nominal(plan, isa));
+            runs.runs = runs.runs.of_nominal(Pilots::of_nominal(plan, isa).map(Pilots::judge));
             return runs.run(sample);
         }
         let mut runs = SingleRuns { ends, ..SingleRuns::compared(plan, grid, isa, requests, false) };

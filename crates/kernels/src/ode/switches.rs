@@ -5,8 +5,8 @@
 //! 1993, section II.6; L. Shampine & S. Thompson, Comput. Math. Appl. 39, 2000). If a branch is wrong at the end of a
 //! step, the switch is located on the dense output, and a step to it replaces the first one. The signs a little later
 //! then choose the branches, whichever side the step ended on. A pair of switches within a step, which leaves all signs
-//! as they were, shows in the derivatives at both ends ([`dip`]): the step first ends at the minimum of the function. No
-//! function is evaluated while none can have come to zero since the last evaluation ([`System::sway`]).
+//! as they were, shows in the derivatives at both ends ([`dip`]): the step first ends at the minimum of the function.
+//! No function is evaluated while none can have come to zero since the last evaluation ([`System::sway`]).
 //!
 //! Nothing hangs: a switch function that is zero to rounding does not count, a step is replaced at most eight times,
 //! and every accepted step counts against `max_steps`.

@@ -16,7 +16,7 @@ use crate::dynamics::gyrostat::{RATES_ONLY, WITH_ANGLES, WITH_ATTITUDE, WITH_MOT
 use crate::math::isa::LaneWork;
 use crate::math::{Isa, Real};
 use crate::ode::integrators::Visitor;
-use crate::ode::{self, Adaptive, Dop853, DormandPrince, Integrator};
+use crate::ode::{self, Adaptive, DormandPrince, Integrator};
 use crate::scene::{MAX_WHEELS, Scene};
 
 impl PropagationSettings {
@@ -42,7 +42,7 @@ impl PropagationSettings {
     fn has_narrow_kernel(&self) -> bool {
         match self.method {
             Method::Auto | Method::Taylor => self.feedback && self.is_forced(),
-            Method::Gyrostat(Integrator::Dop853) => self.feedback && self.changes_within_arcs(),
+            Method::Gyrostat(Integrator::DormandPrince) => self.feedback && self.changes_within_arcs(),
             _ => false,
         }
     }
@@ -89,7 +89,7 @@ impl LaneWork for BuildNarrow<'_> {
         let settings = self.0;
         match settings.method {
             Method::Auto | Method::Taylor => BuildForced(settings).run(simd, zero),
-            _ => OnGyrostats { simd, zero, settings, effects: PhantomData::<Acting<R>> }.visit(Adaptive(Dop853)),
+            _ => OnGyrostats { simd, zero, settings, effects: PhantomData::<Acting<R>> }.visit(Adaptive(DormandPrince)),
         }
     }
 }

@@ -10,8 +10,8 @@ use crate::ode::{Control, Integrator};
 use crate::run::{Grid, StateField, StateFields};
 use crate::scene::{Actuated, Scene};
 
-/// Largest turn in an arc, over the fifth root of the tolerance, that a step of order five crosses (measured for loops in
-/// orbit at 1e-9 to 1e-14).
+/// Largest turn in an arc, over the fifth root of the tolerance, that a step of order five crosses (measured for loops
+/// in orbit at 1e-9 to 1e-14).
 const TURN_OF_ORDER_FIVE: f64 = 10.0;
 
 /// Integration settings common to a campaign's runs.
@@ -64,8 +64,9 @@ impl PropagationSettings {
         PropagationSettings { method, thrust, motors: self.motors || commands.motors, feedback: true, ..self }
     }
 
-    /// Settings for runs whose arcs are at most `period` seconds, if `nominal` turns as fast as any: `written`, if it is
-    /// [`Method::Auto`], becomes a method of order five where one of its steps crosses an arc under changing effects.
+    /// Settings for runs whose arcs are at most `period` seconds, if `nominal` turns as fast as any: `written`, if it
+    /// is [`Method::Auto`], becomes a method of order five where one of its steps crosses an arc under changing
+    /// effects.
     #[must_use]
     pub fn in_periods(self, written: Method, period: f64, nominal: &Scene) -> Self {
         let turn = norm(nominal.initial.omega_se_s) * period;

@@ -46,9 +46,9 @@ pub struct Gain<const N: usize, const M: usize> {
 }
 
 impl<const N: usize, const M: usize> Gain<N, M> {
-    /// The gain for the sensitivity `h` to the first `K` states and measurement noise `r`; updates the covariance `p` in
-    /// Joseph form, (1 - K H) P (1 - K H)^T + K R K^T (R. S. Bucy & P. D. Joseph, 1968). `None`, with no change, unless
-    /// the innovation covariance is positive definite.
+    /// The gain for the sensitivity `h` to the first `K` states and measurement noise `r`; updates the covariance `p`
+    /// in Joseph form, (1 - K H) P (1 - K H)^T + K R K^T (R. S. Bucy & P. D. Joseph, 1968). `None`, with no change,
+    /// unless the innovation covariance is positive definite.
     pub fn of<const K: usize>(p: &mut [[f64; N]; N], h: &[[f64; K]; M], r: &[[f64; M]; M]) -> Option<Self> {
         let pht = multiplied(&first(p), &transposed(h));
         let factor = cholesky(&added(&multiplied(h, &top::<N, M, K>(&pht)), r))?;

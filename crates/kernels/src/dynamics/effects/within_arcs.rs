@@ -486,8 +486,8 @@ mod tests {
     use super::*;
     use crate::scene::{EnvironmentInput, Epoch, Name, OrbitInput, PlateInput, Scene, SceneInput};
 
-    /// Law: no switch function changes by more than the sway of a step, along low, eccentric and geostationary orbits, at
-    /// rest and tumbling.
+    /// Law: no switch function changes by more than the sway of a step, along low, eccentric and geostationary orbits,
+    /// at rest and tumbling.
     #[test]
     fn switch_functions_change_within_their_sway() {
         let plate = |name, normal| PlateInput { name: Name::of(name), normal, area_m2: 1.0, ..PlateInput::DEFAULT };

@@ -28,8 +28,8 @@ const OUTERMOST: f64 = 3.019e-15 / core::f64::consts::E;
 /// Unit of height in the switch functions of the layers, km.
 pub(crate) const SWITCH_UNIT: f64 = 100.0;
 
-/// A layer: base and thickness, km; density at its base, kg/m^3; slope of the binary logarithm of the density, 1/km; for
-/// base and top, infinity if the layer extends beyond.
+/// A layer: base and thickness, km; density at its base, kg/m^3; slope of the binary logarithm of the density, 1/km;
+/// for base and top, infinity if the layer extends beyond.
 type Layer<R> = [R; 6];
 
 impl AirTable {
@@ -159,8 +159,8 @@ impl<R: Real> Air<R> {
 }
 
 impl Air<f64> {
-    /// Air above a surface of radius `surface` m, its density times `scale`: by `table`, of which no layer is chosen, or
-    /// exponential, with density at the base (kg/m^3), height of the base and scale height (m), if that is not zero.
+    /// Air above a surface of radius `surface` m, its density times `scale`: by `table`, of which no layer is chosen,
+    /// or exponential, with density at the base (kg/m^3), height of the base and scale height (m), if that is not zero.
     pub fn new(scale: f64, surface: f64, [density, base, scale_height]: [f64; 3], table: AirTable) -> Self {
         let infinite = f64::INFINITY;
         let slope = -core::f64::consts::LOG2_E / (1e-3 * scale_height);
