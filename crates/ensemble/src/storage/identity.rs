@@ -22,8 +22,9 @@ pub const FORMAT: u32 = 6;
 /// an arc is added up as vectors, and their growth of errors is averaged. Since 6 estimates follow errors through
 /// repeated periods, past separatrices, and from perigee to perigee. Since 7 steps in penumbra count with their ratio
 /// of error to estimate. Since 8 control loops read what depends on the orbit alone from series in time, their arcs
-/// start with the step that their controller knows, and their errors are carried on through the closed loop.
-pub const ARITHMETIC: u32 = 8;
+/// start with the step that their controller knows, and their errors are carried on through the closed loop. Since 9
+/// densities are powers of two, torques of plates are fused, and short arcs of loops take steps of order five.
+pub const ARITHMETIC: u32 = 9;
 
 /// The identity of rows. Rows of two datasets with the same identity can be mixed.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]

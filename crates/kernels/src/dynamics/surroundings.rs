@@ -78,13 +78,6 @@ impl<R: Real> Segment<R> {
         OrbitState { position, velocity: [u, v, w], distance: norm(position) }
     }
 
-    /// [`Segment::place`] with a velocity of zero.
-    #[inline(always)]
-    pub fn position(&self, time: R) -> OrbitState<R> {
-        let position = value(&self.place, self.fraction(time));
-        OrbitState { position, velocity: [time.zero(); 3], distance: norm(position) }
-    }
-
     /// Magnetic field at `time` (s), F_e, T.
     #[inline(always)]
     pub fn field(&self, time: R) -> [R; 3] {
@@ -116,13 +109,12 @@ impl Segment<f64> {
     }
 }
 
-/// The first `D` of the polynomials with `coefficients` at `x`.
+/// The polynomials with `coefficients` at `x`.
 #[inline(always)]
-fn value<R: Real, const C: usize, const D: usize, const T: usize>(coefficients: &[[R; C]; T], x: R) -> [R; D] {
-    let mut value = [x; D];
-    value.copy_from_slice(&coefficients[T - 1][..D]);
+fn value<R: Real, const C: usize, const T: usize>(coefficients: &[[R; C]; T], x: R) -> [R; C] {
+    let mut value = coefficients[T - 1];
     for n in (0..T - 1).rev() {
-        for i in 0..D {
+        for i in 0..C {
             value[i] = value[i].mul_add(x, coefficients[n][i]);
         }
     }
@@ -202,27 +194,23 @@ impl Surroundings {
         (end <= (index + 2.0) * self.stride).then_some(index)
     }
 
-    /// Segment `index`, from those that this thread has made last if it is among them: runs on one orbit share them.
+    /// Segment `index`; a thread keeps the last ones, which runs on one orbit share.
     pub fn segment(&self, index: f64) -> Segment<f64> {
         KNOWN.with_borrow_mut(|known| {
             known.resize_with(MOST_KNOWN, || None);
             let [[x, y, _], _] = self.path.at_start().start();
-            let hash = (x.to_bits() ^ y.to_bits().rotate_left(21) ^ index.to_bits()).wrapping_mul(SPREAD);
-            let known = &mut known[(hash >> 32) as usize % MOST_KNOWN];
-            if known.as_ref().is_none_or(|known| known.index != index || !known.of.is_same(self)) {
-                *known = None;
+            let known = &mut known[(x.to_bits() ^ y.to_bits().rotate_left(9) ^ index as u64) as usize % MOST_KNOWN];
+            match known {
+                Some((of, at, segment)) if *at == index && of.key() == self.key() => *segment,
+                _ => known.insert((self.clone(), index, Isa::best().run_narrow(Fit { of: self, index }))).2,
             }
-            let made = || Known { of: self.clone(), index, segment: Isa::best().run_narrow(Fit { of: self, index }) };
-            known.get_or_insert_with(made).segment
         })
     }
 
-    fn is_same(&self, other: &Self) -> bool {
-        let key = |of: &Self| {
-            let start = of.path.at_start();
-            (start.start(), start.gravity(), of.field.map(|field| field.numbers()), of.epoch)
-        };
-        key(self) == key(other)
+    /// All on which it depends.
+    fn key(&self) -> impl PartialEq {
+        let start = self.path.at_start();
+        (start.start(), start.gravity(), self.field.map(|field| field.numbers()), self.epoch)
     }
 
     #[inline(always)]
@@ -263,21 +251,13 @@ impl Surroundings {
     }
 }
 
-/// A segment made by a thread.
-struct Known {
-    of: Surroundings,
-    index: f64,
-    segment: Segment<f64>,
-}
-
-/// Segments that a thread keeps: two of each of its lanes, for truth and flight software.
+/// Segments that a thread keeps: two for each lane, for truth and flight software.
 const MOST_KNOWN: usize = 64;
 
-/// An odd factor that spreads bits (2^64 over the golden ratio).
-const SPREAD: u64 = 0x9e37_79b9_7f4a_7c15;
+type Known = Option<(Surroundings, f64, Segment<f64>)>;
 
 thread_local! {
-    static KNOWN: RefCell<Vec<Option<Known>>> = const { RefCell::new(Vec::new()) };
+    static KNOWN: RefCell<Vec<Known>> = const { RefCell::new(Vec::new()) };
 }
 
 struct Fit<'a> {
@@ -348,22 +328,6 @@ impl Window {
     /// Magnetic field at `time` (s), F_e, T.
     pub fn field(&mut self, time: f64) -> [f64; 3] {
         Isa::best().run(FieldAt(self.at(time), time))
-    }
-
-    /// Position and velocity at `time`, s.
-    pub fn place(&mut self, time: f64) -> OrbitState<f64> {
-        Isa::best().run(PlaceAt(self.at(time), time))
-    }
-}
-
-struct PlaceAt<'a>(&'a Segment<f64>, f64);
-
-impl Work for PlaceAt<'_> {
-    type Output = OrbitState<f64>;
-
-    #[inline(always)]
-    fn run<S: Simd>(self, _simd: S) -> OrbitState<f64> {
-        self.0.place(self.1)
     }
 }
 

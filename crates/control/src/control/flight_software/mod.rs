@@ -5,7 +5,6 @@
 mod commands;
 mod maneuver;
 
-use std::cell::RefCell;
 use std::sync::Arc;
 
 use super::actuators::{DelayQueue, PulseState, ThrustMode, modulation};
@@ -22,8 +21,8 @@ use super::laws::rod_law::MeasuredField;
 use super::laws::{AttitudeLaw, KnownBody, LawSettings};
 use super::parameters::{AttitudeNumbers, ConditionNumbers, LoopNumbers, PhaseNumbers};
 use super::tick_times::TickTimes;
+use crate::dynamics::orbit_path::OrbitPath;
 use crate::dynamics::orbit_state::OrbitState;
-use crate::dynamics::surroundings::Window;
 use crate::loops::attitude_law::{Constant, stored_momentum};
 use crate::loops::condition::GuidanceInput;
 use crate::loops::context::LawContext;
@@ -85,8 +84,7 @@ pub struct FlightSoftware {
     thrust_mode: ThrustMode,
     pulses: [PulseState; MAX_THRUSTERS],
     launch: LaunchState,
-    /// The nominal orbit.
-    orbit: Option<RefCell<Window>>,
+    orbit: Option<OrbitPath>,
     /// Estimated launch geometry at the control tick; `None` without debris.
     geometry: Option<LaunchGeometry>,
     is_recorded: bool,
@@ -167,7 +165,7 @@ impl FlightSoftware {
             thrust_mode: modulation::mode(spec.modulation, numbers),
             pulses: [PulseState::default(); MAX_THRUSTERS],
             launch: LaunchState::of(numbers, believed.orbit.as_ref()),
-            orbit: Window::of(&believed).map(RefCell::new),
+            orbit: believed.orbit.as_ref().map(OrbitPath::new),
             geometry: None,
             is_recorded: context.records,
             delay,
@@ -293,7 +291,7 @@ impl FlightSoftware {
         let place = if self.spec.knows_the_truth() {
             [self.estimate.r_co_e, self.estimate.v_co_e]
         } else {
-            let OrbitState { position, velocity, .. } = orbit.borrow_mut().place(time);
+            let OrbitState { position, velocity, .. } = orbit.state(time);
             [position, velocity]
         };
         Some(OrbitMotion::of(nominal, self.phase().target, time, place))

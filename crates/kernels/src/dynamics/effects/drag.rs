@@ -5,7 +5,7 @@
 //! Neglected: velocity of a plate relative to the centre of mass (1e-5 of v), mutual shadowing.
 
 pub(super) use super::plates::largest_rate;
-use super::plates::{PlatesInLanes, largest_lever, outer};
+use super::plates::{PlatesInLanes, largest_lever, sum_of};
 use super::within_arcs::Motion;
 use crate::dynamics::environment::EARTH_RATE;
 use crate::dynamics::environment::air::{Air, AirTable};
@@ -18,13 +18,11 @@ pub struct Drag<R> {
     /// Drag coefficient.
     plates: PlatesInLanes<R, 1>,
     air: Air<R>,
-    /// Once sides are chosen: sum of coefficient and area times arm by normal, m^3.
-    arms: Option<[[R; 3]; 3]>,
 }
 
 impl<R: Real> Drag<R> {
     pub fn none(zero: R) -> Self {
-        Drag { plates: PlatesInLanes::none(zero), air: Air::none(zero), arms: None }
+        Drag { plates: PlatesInLanes::none(zero), air: Air::none(zero) }
     }
 
     pub fn set_lane(&mut self, lane: usize, own: &Drag<f64>) {
@@ -53,13 +51,6 @@ impl<R: Real> Drag<R> {
     pub fn choose_branches(&mut self, lanes: R::Mask, motion: &Motion<R>) {
         self.air.choose_branches(lanes, motion.place.distance);
         self.plates.choose_branches(lanes, flow(motion));
-        let zero = [[motion.time.zero(); 3]; 3];
-        self.plates.add_chosen(
-            lanes,
-            self.arms.get_or_insert(zero),
-            #[inline(always)]
-            |plate| outer(scaled(plate.numbers[0], plate.arm), plate.normal),
-        );
     }
 
     /// Drag is smooth for given plates and layer.
@@ -92,14 +83,9 @@ impl<R: Real> Drag<R> {
     #[inline(always)]
     pub fn torque_at(&self, density: R, velocity: [R; 3]) -> [R; 3] {
         let mut arm = [density.zero(); 3];
-        match self.arms {
-            Some(arms) => arm = product(arms, velocity),
-            None => {
-                for plate in self.plates.iter() {
-                    let [drag] = plate.numbers;
-                    arm = sum(arm, scaled(drag * plate.facing(velocity), plate.arm));
-                }
-            }
+        for plate in self.plates.iter() {
+            let [drag] = plate.numbers;
+            arm = sum_of(arm, drag * plate.facing(velocity), plate.arm);
         }
         scaled(density * density.splat(-0.5), cross(arm, velocity))
     }
@@ -122,7 +108,7 @@ pub fn of<R: Real>(zero: R, scene: &Scene, c_sb: Option<[[R; 3]; 3]>) -> Option<
     let own = air_of(scene)?;
     let mut air = Air::none(zero);
     (0..R::LANES).for_each(|lane| air.set_lane(lane, &own));
-    Some(Drag { plates: PlatesInLanes::of(zero, scene, c_sb, |plate| [plate.drag_coefficient]), air, arms: None })
+    Some(Drag { plates: PlatesInLanes::of(zero, scene, c_sb, |plate| [plate.drag_coefficient]), air })
 }
 
 /// Upper bound of the torque on `scene`, N m: at periapsis, against the Earth's rotation, all plates facing the flow.

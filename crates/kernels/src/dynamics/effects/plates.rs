@@ -1,7 +1,7 @@
 //! [`PlatesInLanes`]: the plates of a spacecraft, one run per lane, in the frame B of the equations.
 //!
 //! The switch function of a plate is the cosine of its normal to the incoming direction. If steps end at switches, the
-//! chosen side is frozen, and the torque of all plates is a polynomial of the direction.
+//! chosen side is frozen.
 
 use crate::math::prelude::*;
 use crate::math::symmetric::principal_axes;
@@ -20,6 +20,8 @@ pub struct PlateInLanes<R, const K: usize> {
     pub normal: [R; 3],
     /// Centre from the centre of mass, B, m.
     pub arm: [R; 3],
+    /// Normal x arm, m.
+    pub twist: [R; 3],
     /// Numbers of the effect, times the plate's area.
     pub numbers: [R; K],
     /// Lower and upper limit of the effective cosine: [0, inf] until a side is chosen, then [-inf, inf] or [0, 0].
@@ -29,7 +31,8 @@ pub struct PlateInLanes<R, const K: usize> {
 impl<R: Real, const K: usize> PlatesInLanes<R, K> {
     pub fn none(zero: R) -> Self {
         let limits = [zero, zero.splat(f64::INFINITY)];
-        let plate = PlateInLanes { normal: [zero; 3], arm: [zero; 3], numbers: [zero; K], limits };
+        let none = [zero; 3];
+        let plate = PlateInLanes { normal: none, arm: none, twist: none, numbers: [zero; K], limits };
         PlatesInLanes { plates: [plate; MAX_PLATES], count: 0 }
     }
 
@@ -40,6 +43,7 @@ impl<R: Real, const K: usize> PlatesInLanes<R, K> {
         for (own, plate) in plates.plates.iter_mut().zip(&scene.plates) {
             own.normal = into_b(plate.normal);
             own.arm = into_b(difference(plate.center, scene.mass.center));
+            own.twist = cross(own.normal, own.arm);
             own.numbers = numbers(plate).map(|number| zero.splat(number) * zero.splat(plate.area));
         }
         plates.count = scene.plates.len().min(MAX_PLATES);
@@ -51,6 +55,7 @@ impl<R: Real, const K: usize> PlatesInLanes<R, K> {
         for (plate, own) in self.plates[..self.count].iter_mut().zip(&own.plates) {
             set_lanes(&mut plate.normal, lane, &own.normal);
             set_lanes(&mut plate.arm, lane, &own.arm);
+            set_lanes(&mut plate.twist, lane, &own.twist);
             set_lanes(&mut plate.numbers, lane, &own.numbers);
             set_lanes(&mut plate.limits, lane, &own.limits);
         }
@@ -81,32 +86,6 @@ impl<R: Real, const K: usize> PlatesInLanes<R, K> {
         }
     }
 
-    /// Sum over the plates on their chosen sides of `own` in the lanes `lanes`, else `before`.
-    #[inline(always)]
-    pub fn add_chosen<const M: usize>(
-        &self,
-        lanes: R::Mask,
-        before: &mut [[R; M]; 3],
-        own: impl Fn(&PlateInLanes<R, K>) -> [[R; M]; 3],
-    ) {
-        let zero = before[0][0].zero();
-        let mut sums = [[zero; M]; 3];
-        for plate in self.iter() {
-            let side = zero.lt(plate.limits[1]);
-            let own = own(plate);
-            for i in 0..3 {
-                for j in 0..M {
-                    sums[i][j] += R::select(side, own[i][j], zero);
-                }
-            }
-        }
-        for i in 0..3 {
-            for j in 0..M {
-                before[i][j] = R::select(lanes, sums[i][j], before[i][j]);
-            }
-        }
-    }
-
     #[inline(always)]
     pub fn iter(&self) -> impl Iterator<Item = &PlateInLanes<R, K>> {
         self.plates[..self.count].iter()
@@ -122,16 +101,13 @@ impl<R: Real, const K: usize> PlateInLanes<R, K> {
     }
 }
 
-/// a b^T.
+/// sum + weight v.
 #[inline(always)]
-pub fn outer<R: Real, const M: usize>(a: [R; 3], b: [R; M]) -> [[R; M]; 3] {
-    let mut products = [b; 3];
+pub fn sum_of<R: Real>(mut sum: [R; 3], weight: R, v: [R; 3]) -> [R; 3] {
     for i in 0..3 {
-        for product in &mut products[i] {
-            *product = a[i] * *product;
-        }
+        sum[i] = weight.mul_add(v[i], sum[i]);
     }
-    products
+    sum
 }
 
 /// Sum over the plates of `weight` times area times distance from the centre of mass, m^3.

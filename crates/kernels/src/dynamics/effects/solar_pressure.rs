@@ -7,7 +7,7 @@
 //! from the Earth.
 
 pub(super) use super::plates::largest_rate;
-use super::plates::{PlateInLanes, PlatesInLanes, largest_lever, outer};
+use super::plates::{PlateInLanes, PlatesInLanes, largest_lever, sum_of};
 use super::within_arcs::Motion;
 use crate::dynamics::environment::light::Light;
 use crate::dynamics::environment::shadow::Zone;
@@ -24,24 +24,12 @@ pub struct SolarPressure<R> {
     /// Sun and shadow.
     pub light: Light<R>,
     zone: Zone<R>,
-    sums: Option<Sums<R>>,
-}
-
-/// Sums over the plates on their chosen sides, of the numbers of each.
-#[derive(Clone, Copy, Debug)]
-struct Sums<R> {
-    /// 1 - c_s times arm, by normal.
-    along: [[R; 3]; 3],
-    /// 2 c_d/3 times n x arm, by normal.
-    scattered: [[R; 3]; 3],
-    /// 2 c_s times n x arm, by products of the normal ([`products`]).
-    mirrored: [[R; 6]; 3],
 }
 
 impl<R: Real> SolarPressure<R> {
     pub fn none(zero: R) -> Self {
         let light = Light { epoch: zero, radius: zero, shadow: Shadow::Cone };
-        SolarPressure { plates: PlatesInLanes::none(zero), light, zone: Zone::none(zero), sums: None }
+        SolarPressure { plates: PlatesInLanes::none(zero), light, zone: Zone::none(zero) }
     }
 
     pub fn set_lane(&mut self, lane: usize, own: &SolarPressure<f64>) {
@@ -83,31 +71,6 @@ impl<R: Real> SolarPressure<R> {
         let Light { radius, shadow, .. } = self.light;
         self.zone.choose_branches(lanes, shadow, motion.place.position, &motion.sun, radius);
         self.plates.choose_branches(lanes, seen(motion));
-        let zero = motion.time.zero();
-        let none = Sums { along: [[zero; 3]; 3], scattered: [[zero; 3]; 3], mirrored: [[zero; 6]; 3] };
-        let sums = self.sums.get_or_insert(none);
-        self.plates.add_chosen(
-            lanes,
-            &mut sums.along,
-            #[inline(always)]
-            |plate| outer(scaled(plate.numbers[0], plate.arm), plate.normal),
-        );
-        self.plates.add_chosen(
-            lanes,
-            &mut sums.scattered,
-            #[inline(always)]
-            |plate| outer(scaled(plate.numbers[2], cross(plate.normal, plate.arm)), plate.normal),
-        );
-        self.plates.add_chosen(
-            lanes,
-            &mut sums.mirrored,
-            #[inline(always)]
-            |plate| {
-                let [xx, yy, zz, xy, yz, zx] = products(plate.normal);
-                let twice = [xx, yy, zz, xy + xy, yz + yz, zx + zx];
-                outer(scaled(plate.numbers[1], cross(plate.normal, plate.arm)), twice)
-            },
-        );
     }
 
     /// The lanes in penumbra.
@@ -133,32 +96,14 @@ impl<R: Real> SolarPressure<R> {
     /// Torque at `share` of the pressure at 1 au and the unit vector `sun` to the Sun, B.
     #[inline(always)]
     pub fn torque_at(&self, share: R, sun: [R; 3]) -> [R; 3] {
-        let mut torque = [share.zero(); 3];
-        match &self.sums {
-            Some(sums) => {
-                torque = sum(cross(sun, product(sums.along, sun)), product(sums.scattered, sun));
-                let products = products(sun);
-                for (torque, row) in torque.iter_mut().zip(&sums.mirrored) {
-                    for (number, product) in row.iter().zip(products) {
-                        *torque = number.mul_add(product, *torque);
-                    }
-                }
-            }
-            None => {
-                for plate in self.plates.iter() {
-                    let (facing, push) = push(plate, sun);
-                    torque = sum(torque, scaled(facing, cross(push, plate.arm)));
-                }
-            }
+        let (mut along, mut across) = ([share.zero(); 3], [share.zero(); 3]);
+        for plate in self.plates.iter() {
+            let ([absorbed, mirrored, scattered], facing) = (plate.numbers, plate.facing(sun));
+            along = sum_of(along, absorbed * facing, plate.arm);
+            across = sum_of(across, mirrored.mul_add(facing, scattered) * facing, plate.twist);
         }
-        scaled(share, torque)
+        scaled(share, sum(cross(sun, along), across))
     }
-}
-
-/// Products of two components each: xx, yy, zz, xy, yz, zx.
-#[inline(always)]
-fn products<R: Real>([x, y, z]: [R; 3]) -> [R; 6] {
-    [x * x, y * y, z * z, x * y, y * z, z * x]
 }
 
 /// Cosine of `plate` to the direction `sun` (B), and the force against that direction per cosine and unit pressure.
@@ -180,7 +125,7 @@ pub fn of<R: Real>(zero: R, scene: &Scene, c_sb: Option<[[R; 3]; 3]>) -> Option<
     let plates = PlatesInLanes::of(zero, scene, c_sb, |plate| {
         [1.0 - plate.specular, 2.0 * plate.specular, 2.0 / 3.0 * plate.diffuse].map(|share| pressure * share)
     });
-    Some(SolarPressure { plates, light, zone: Zone::none(zero), sums: None })
+    Some(SolarPressure { plates, light, zone: Zone::none(zero) })
 }
 
 /// Upper bound of the torque on `scene`, N m: at the smallest distance, all plates facing the Sun.
@@ -195,13 +140,11 @@ pub fn largest_torque(scene: &Scene) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dynamics::environment::sun::Sun;
-    use crate::dynamics::orbit_state::OrbitState;
     use crate::scene::{EnvironmentInput, Epoch, Name, OrbitInput, PlateInput, SceneInput};
 
     const PRESSURE: f64 = 5e-6;
 
-    fn light(plates: Vec<PlateInput>) -> SolarPressure<f64> {
+    fn light(plate: PlateInput) -> SolarPressure<f64> {
         let environment =
             EnvironmentInput { solar_pressure: true, solar_pressure_n_m2: PRESSURE, ..EnvironmentInput::DEFAULT };
         let orbit = Some(OrbitInput {
@@ -209,8 +152,7 @@ mod tests {
             epoch: Epoch::parse("2026-11-24T00:00:00Z"),
             ..OrbitInput::DEFAULT
         });
-        let named = |(plate, name): (PlateInput, _)| PlateInput { name: Name::of(name), area_m2: 4.0, ..plate };
-        let plates = plates.into_iter().zip(["a", "b", "c", "d"]).map(named).collect();
+        let plates = vec![PlateInput { name: Name::of("a"), area_m2: 4.0, ..plate }];
         let input = SceneInput { orbit, environment, plates, ..SceneInput::default() };
         of(0.0, &Scene::resolve(&input).expect("a legal scene"), None).expect("light")
     }
@@ -229,46 +171,12 @@ mod tests {
             (1.0, 0.0, scaled(-2.0 * full * c, normal)),
             (0.0, 1.0, sum(scaled(-full, sun), scaled(-2.0 / 3.0 * full, normal))),
         ] {
-            let light = light(vec![PlateInput { specular, diffuse, center_m: arm, ..PlateInput::DEFAULT }]);
+            let light = light(PlateInput { specular, diffuse, center_m: arm, ..PlateInput::DEFAULT });
             let off = norm(difference(light.torque_at(1.0, sun), cross(arm, force)));
             assert!(off < 1e-15 * full, "{specular} {diffuse}: {off:e}");
             assert_eq!(light.torque_at(1.0, [s, 0.0, -c]), [0.0; 3]);
             let half = norm(difference(light.torque_at(0.5, sun), scaled(0.5, cross(arm, force))));
             assert!(half < 1e-15 * full);
-        }
-    }
-
-    /// Law: on chosen sides, the torque by sums is that of the plates one by one.
-    #[test]
-    fn sums_are_those_of_the_plates() {
-        let plate = |specular, diffuse, normal, center_m| PlateInput {
-            specular,
-            diffuse,
-            normal,
-            center_m,
-            ..PlateInput::DEFAULT
-        };
-        let light = light(vec![
-            plate(0.3, 0.5, [0.2, -0.5, 1.0], [1.0, -2.0, 0.5]),
-            plate(0.9, 0.0, [1.0, 0.1, 0.3], [-0.3, 0.7, 0.2]),
-            plate(0.0, 0.2, [-0.4, 1.0, -0.2], [0.1, 0.2, -1.5]),
-            plate(0.5, 0.5, [0.3, -1.0, -0.6], [0.9, 0.2, 0.4]),
-        ]);
-        for sun in [[0.48, 0.6, 0.64], [-0.48, 0.6, -0.64], [0.0, -1.0, 0.0]] {
-            let (one_by_one, mut chosen) = (light.torque_at(0.7, sun), light);
-            chosen.choose_branches(
-                true,
-                &Motion {
-                    time: 0.0,
-                    attitude: [1.0, 0.0, 0.0, 0.0],
-                    rate: [0.0; 3],
-                    place: OrbitState { position: [7e6, 0.0, 0.0], velocity: [0.0; 3], distance: 7e6 },
-                    field: [0.0; 3],
-                    sun: Sun { direction: sun, distance: 1.0 },
-                },
-            );
-            let off = norm(difference(chosen.torque_at(0.7, sun), one_by_one));
-            assert!(off < 1e-14 * norm(one_by_one) && chosen.sums.is_some(), "{off:e} of {one_by_one:?}");
         }
     }
 }
