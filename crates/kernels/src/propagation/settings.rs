@@ -60,9 +60,9 @@ impl PropagationSettings {
         PropagationSettings { method, thrust, motors: self.motors || commands.motors, feedback: true, ..self }
     }
 
-    /// Settings for runs whose arcs are at most `period` seconds, if `nominal` turns as fast as any: `written`, if it is
-    /// [`Method::Auto`], becomes a method of order five under changing effects if the fifth power of the turn in an arc,
-    /// rad, is below the tolerance: one of its steps crosses the arc, with a fraction of the tolerance as error.
+    /// Settings for runs whose arcs are at most `period` seconds, if `nominal` turns as fast as any: `written`, if it
+    /// is [`Method::Auto`], becomes a method of order five under changing effects if the fifth power of the turn in an
+    /// arc, rad, is below the tolerance: one of its steps crosses the arc, with a fraction of the tolerance as error.
     #[must_use]
     pub fn in_periods(self, written: Method, period: f64, nominal: &Scene) -> Self {
         let turn = norm(nominal.initial.omega_se_s) * period;
