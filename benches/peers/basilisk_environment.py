@@ -36,7 +36,7 @@ import pyarrow.parquet as pq
 from basilisk import campaign, difference, matrix, run
 from Basilisk.architecture import bskLogging, messaging, sysModel
 from Basilisk.simulation import (GravityGradientEffector, MtbEffector, eclipse, exponentialAtmosphere, facetDragDynamicEffector,
-                                 facetSRPDynamicEffector, magneticFieldCenteredDipole, spacecraft, svIntegrators, zeroWindModel)
+                                 facetSRPDynamicEffector, magneticFieldCenteredDipole, spacecraft, sphericalHarmonicsGravityModel, svIntegrators, zeroWindModel)
 from Basilisk.utilities import SimulationBaseClass, macros, simIncludeGravBody
 
 FLUX, LIGHT = 1368.0, 299792458.0  # facetSRPDynamicEffector.cpp
@@ -150,13 +150,15 @@ class Sky(sysModel.SysModel):
             message.write(messaging.SpicePlanetStateMsgPayload(PlanetName="sun", PositionVector=vector.tolist()), now)
 
 
-def basilisk_run(case, step, own=(), moving=True):
+def basilisk_run(case, step, own=(), moving=True, loop=None):
     """One run of Basilisk: states at the points, visible share of the Sun at every tick (with sunlight), CPU seconds of the execution alone.
 
     Within a tick the spacecraft comes first; then the modules of the environment write for its state what it has during the next step.
+    `loop` adds a control loop: called with the simulation, its process, the spacecraft and the module of the field, it has the rates of its wheels.
     """
     simulation = SimulationBaseClass.SimBaseClass()
-    simulation.CreateNewProcess("process").addTask(simulation.CreateNewTask("task", macros.sec2nano(step)))
+    process = simulation.CreateNewProcess("process")
+    process.addTask(simulation.CreateNewTask("task", macros.sec2nano(step)), 2)
     column = lambda vector: np.reshape(vector, (3, 1)).tolist()
     scene, environment = case.scene, case.environment
     position, velocity, q, omega = np.split(scene.state, [3, 6, 10])
@@ -173,6 +175,11 @@ def basilisk_run(case, step, own=(), moving=True):
     bodies = simIncludeGravBody.gravBodyFactory()
     earth = bodies.createCustomGravObject("earth", plates.MU, radEquator=plates.RADIUS)
     earth.isCentralBody = True
+    if "j2" in case.file["orbit"]:
+        harmonics = earth.gravityModel = sphericalHarmonicsGravityModel.SphericalHarmonicsGravityModel()
+        harmonics.maxDeg, harmonics.muBody, harmonics.radEquator = 2, plates.MU, plates.RADIUS
+        harmonics.cBar = [[1.0], [0.0, 0.0], [-case.file["orbit"]["j2"] / math.sqrt(5.0), 0.0, 0.0]]
+        harmonics.sBar = [[0.0], [0.0, 0.0], [0.0, 0.0, 0.0]]
     bodies.addBodiesTo(craft)
     simulation.AddModelToTask("task", craft, 9)
 
@@ -234,6 +241,7 @@ def basilisk_run(case, step, own=(), moving=True):
         rods.mtbParamsInMsg.subscribeTo(setup)
         rods.mtbCmdInMsg.subscribeTo(command)
         rods.magInMsg.subscribeTo(field.envOutMsgs[0])
+    flight = loop(simulation, process, craft, field) if loop else None
 
     every = macros.sec2nano(case.duration / (case.points - 1))
     states = craft.scStateOutMsg.recorder(every)
@@ -250,6 +258,8 @@ def basilisk_run(case, step, own=(), moving=True):
     square = (sigma * sigma).sum(axis=1, keepdims=True)
     found = {"omega": np.array(states.omega_BN_B), "attitude": np.hstack([1 - square, 2 * sigma]) / (1 + square),
              "position": np.array(states.r_BN_N)}
+    if loop:
+        found["wheels"] = flight.rates()
     return {key: value[None] for key, value in found.items()}, None if shares is None else np.array(shares.illuminationFactor), spent
 
 
