@@ -1,11 +1,12 @@
 #!/bin/sh
 # Runs spindrift and Basilisk on the same spacecraft with four wheels, one after the other on one core. Fails if they do not agree.
 # With `attitude` as the first word: the same spacecraft with three wheels under a control loop; with `environment`: gravity gradient, plates in air
-# and sunlight, torque rods and eclipses. See benches/README.md.
+# and sunlight, torque rods and eclipses; with `orbit`: a control loop among them. See benches/README.md.
 #
 #   benches/peers/basilisk.sh [options of basilisk.py, for example --samples 32 --repeats 3 --limit 1e-9]
 #   benches/peers/basilisk.sh attitude [options of basilisk_attitude.py, for example --steps history,speed]
 #   benches/peers/basilisk.sh environment [options of basilisk_environment.py, for example --cases drag]
+#   benches/peers/basilisk.sh orbit [options of basilisk_orbit.py, for example --repeats 0]
 #
 # The scratch environment is PEERS (default: a folder in the system's temporary folder) and is reused. It is apart from that of run.sh,
 # so that neither decides the other's versions. SPINDRIFT=program takes this program instead of building one.
@@ -16,7 +17,7 @@ scratch=${PEERS:-${TMPDIR:-/tmp}/spindrift-peers}
 python=${PYTHON:-python3}
 script=basilisk.py
 case "${1:-}" in
-attitude | environment)
+attitude | environment | orbit)
     script=basilisk_$1.py
     shift
     ;;
