@@ -32,17 +32,23 @@ def system():
     q0, q1, q2, q3 = q = hy.make_vars("q0", "q1", "q2", "q3")
     square = hy.sum([x * x for x in r])
     pull, gradient = square**-1.5, 3.0 * square**-2.5
-    rows = ((1 - 2 * (q2 * q2 + q3 * q3), 2 * (q1 * q2 + q0 * q3), 2 * (q1 * q3 - q0 * q2)),
-            (2 * (q1 * q2 - q0 * q3), 1 - 2 * (q1 * q1 + q3 * q3), 2 * (q2 * q3 + q0 * q1)),
-            (2 * (q1 * q3 + q0 * q2), 2 * (q2 * q3 - q0 * q1), 1 - 2 * (q1 * q1 + q2 * q2)))
+    rows = (
+        (1 - 2 * (q2 * q2 + q3 * q3), 2 * (q1 * q2 + q0 * q3), 2 * (q1 * q3 - q0 * q2)),
+        (2 * (q1 * q2 - q0 * q3), 1 - 2 * (q1 * q1 + q3 * q3), 2 * (q2 * q3 + q0 * q1)),
+        (2 * (q1 * q3 + q0 * q2), 2 * (q2 * q3 - q0 * q1), 1 - 2 * (q1 * q1 + q2 * q2)),
+    )
     own = [hy.sum([a * x for a, x in zip(row, r)]) for row in rows]
     spin = []
     for i in range(3):
         j, k = (i + 1) % 3, (i + 2) % 3
         spin.append(float((J[j] - J[k]) / J[i]) * (w[j] * w[k] - gradient * own[j] * own[k]))
     x, y, z = w
-    turn = (-0.5 * (q1 * x + q2 * y + q3 * z), 0.5 * (q0 * x + q2 * z - q3 * y), 0.5 * (q0 * y + q3 * x - q1 * z),
-            0.5 * (q0 * z + q1 * y - q2 * x))
+    turn = (
+        -0.5 * (q1 * x + q2 * y + q3 * z),
+        0.5 * (q0 * x + q2 * z - q3 * y),
+        0.5 * (q0 * y + q3 * x - q1 * z),
+        0.5 * (q0 * z + q1 * y - q2 * x),
+    )
     return [*zip(r, v), *((a, -pull * b) for a, b in zip(v, r)), *zip(q, turn), *zip(w, spin)]
 
 
@@ -84,15 +90,27 @@ def main():
 
         def campaign(samples):
             before = resource.getrusage(resource.RUSAGE_CHILDREN)
-            words = ["--samples", str(samples), "--threads", "1", "--no-report", "--overwrite", "--out", folder / "rows"]
+            words = [
+                "--samples",
+                str(samples),
+                "--threads",
+                "1",
+                "--no-report",
+                "--overwrite",
+                "--out",
+                folder / "rows",
+            ]
             subprocess.run([options.spindrift, "campaign", file, *words], check=False, capture_output=True)
             after = resource.getrusage(resource.RUSAGE_CHILDREN)
             return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
         def precision():
             words = ["--samples", "64", "--repeats", "3", "--methods", "auto", "--tolerances", str(TOLERANCE)]
-            subprocess.run([options.spindrift, "precision", file, *words, "--out", folder / "precision"], check=True,
-                           capture_output=True)
+            subprocess.run(
+                [options.spindrift, "precision", file, *words, "--out", folder / "precision"],
+                check=True,
+                capture_output=True,
+            )
             return 1e6 / pq.read_table(folder / "precision" / "precision.parquet")["runs_per_s"][0].as_py()
 
         campaign(options.samples)
@@ -109,7 +127,9 @@ def main():
         width = hy.recommended_simd_size()
         makers = {}
         for batch, fast in itertools.product((width, 2 * width), (False, True)):
-            makers[batch, fast] = hy.taylor_adaptive_batch(system(), np.zeros((13, batch)), tol=TOLERANCE, fast_math=fast)
+            makers[batch, fast] = hy.taylor_adaptive_batch(
+                system(), np.zeros((13, batch)), tol=TOLERANCE, fast_math=fast
+            )
         times, slopes, alone = {key: [] for key in makers}, [], []
         for _ in range(options.repeats + 1):
             for key, ta in makers.items():
@@ -119,13 +139,17 @@ def main():
             slopes.append(1e6 * (campaign(4 * options.samples) - campaign(options.samples)) / (3 * options.samples))
             alone.append(precision())
         best = min(makers, key=lambda key: np.median(times[key][1:]))
-        print(f"heyoka {hy.__version__}: us a run, batch and fast_math: "
-              + ", ".join(f"{key} {np.median(one[1:]):.1f}" for key, one in times.items()))
+        print(
+            f"heyoka {hy.__version__}: us a run, batch and fast_math: "
+            + ", ".join(f"{key} {np.median(one[1:]):.1f}" for key, one in times.items())
+        )
         theirs = np.array(times[best][1:])
         for name, one in (("precision", alone), ("a further run of a campaign", slopes)):
             ratio = np.sort(theirs / one[1:])
-            print(f"spindrift, {name}: {np.median(one[1:]):.1f} us a run, {np.median(ratio):.2f} times the runs of heyoka "
-                  f"({ratio[0]:.2f} to {ratio[-1]:.2f})")
+            print(
+                f"spindrift, {name}: {np.median(one[1:]):.1f} us a run, {np.median(ratio):.2f} times the runs of heyoka"
+                f" ({ratio[0]:.2f} to {ratio[-1]:.2f})"
+            )
         for name, one in (("heyoka", ends), ("spindrift", ours)):
             off = angle(one[:64], truth)
             print(f"error of {name}: median {np.median(off):.1e} rad, largest {off.max():.1e}")

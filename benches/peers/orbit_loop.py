@@ -33,12 +33,16 @@ from scipy.optimize import brentq
 CAMPAIGNS = pathlib.Path(__file__).resolve().parents[2] / "campaigns"
 A, B, C = DOP853.A[:12, :12], DOP853.B, DOP853.C[:12]
 FOUR = [0, 5, 8, 11]  # nodes of a step for cubics
-COMMON = ["campaign.duration_s=5680", "observe.points=285", "integrator.tolerance=1e-13",
-          "orbit.true_anomaly_rad=0.7"]
-NADIR = [*COMMON, "orbit.argument_of_periapsis_rad=-0.4",
-         "initial.attitude_orbital=[0.999817163, 0.01, -0.008, 0.0142]",
-         "initial.angular_velocity_orbital_rad_s=[0.0008, -0.0005, 0.0006]", "wheels.w1.rate_rad_s=60",
-         "wheels.w2.rate_rad_s=-40", "wheels.w3.rate_rad_s=35"]
+COMMON = ["campaign.duration_s=5680", "observe.points=285", "integrator.tolerance=1e-13", "orbit.true_anomaly_rad=0.7"]
+NADIR = [
+    *COMMON,
+    "orbit.argument_of_periapsis_rad=-0.4",
+    "initial.attitude_orbital=[0.999817163, 0.01, -0.008, 0.0142]",
+    "initial.angular_velocity_orbital_rad_s=[0.0008, -0.0005, 0.0006]",
+    "wheels.w1.rate_rad_s=60",
+    "wheels.w2.rate_rad_s=-40",
+    "wheels.w3.rate_rad_s=35",
+]
 CASES = {
     "nadir, perfect knowledge": ("cubesat_nadir.toml", [*NADIR, "control.estimator=perfect"]),
     "nadir, gyro and filter": ("cubesat_nadir.toml", NADIR),
