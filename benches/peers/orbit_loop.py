@@ -127,7 +127,17 @@ def orbital(r, v):
     return np.column_stack([np.cross(o2, o3), o2, o3]), normal / (r @ r)
 
 
+def joined(bodies):
+    """Mass, centre and inertia about it of bodies that are given by the same."""
+    mass = sum(m for m, *_ in bodies)
+    center = sum(m * np.array(place) for m, place, _ in bodies) / mass
+    arms = [(m, place - center, own) for m, place, own in bodies]
+    return mass, center, sum(own + m * (arm @ arm * np.eye(3) - np.outer(arm, arm)) for m, arm, own in arms)
+
+
 class Loop:
+    """A plan, or a drawn scene of it."""
+
     def __init__(self, file):
         self.file, self.wheels, self.phase = file, file.get("wheels", []), file["guidance"][0]
         self.duration, self.period = file["campaign"]["duration_s"], file["control"]["period_s"]
@@ -139,10 +149,12 @@ class Loop:
         self.coast()
 
     def body(self):
-        bodies = []  # mass, place, inertia about its centre
+        parts = []
         for part in self.file["body"]["parts"]:
             m, sides = part["mass_kg"], np.array(part["size_m"]) ** 2
-            bodies.append((m, part["position_m"], m / 12 * np.diag(sides.sum() - sides)))
+            parts.append((m, part["position_m"], m / 12 * np.diag(sides.sum() - sides)))
+        mass, center, own = joined(parts)
+        bodies = [(mass, center, self.file["body"]["inertia_scale"] * own)]
         axes = [wheel["axis"] / np.linalg.norm(wheel["axis"]) for wheel in self.wheels]
         for wheel, axis in zip(self.wheels, axes):
             axial, across = wheel["axial_inertia_kg_m2"], wheel["transverse_inertia_kg_m2"]
@@ -150,9 +162,7 @@ class Loop:
             bodies.append((wheel["mass_kg"], wheel["position_m"], own))
         self.axes = np.array(axes).reshape(-1, 3).T
         self.axial = np.array([wheel["axial_inertia_kg_m2"] for wheel in self.wheels])
-        self.center = sum(m * np.array(place) for m, place, _ in bodies) / sum(m for m, *_ in bodies)
-        arms = [(m, place - self.center, own) for m, place, own in bodies]
-        self.j = sum(own + m * (arm @ arm * np.eye(3) - np.outer(arm, arm)) for m, arm, own in arms)
+        _, self.center, self.j = joined(bodies)
         self.k = self.j - (self.axes * self.axial) @ self.axes.T
         self.inverse = np.linalg.inv(self.k)
         self.reduced = self.axial / (1 + self.axial * (self.axes * (self.inverse @ self.axes)).sum(axis=0))
@@ -192,7 +202,8 @@ class Loop:
         suns = np.array([plates.sun(self.field.days + time / 86400) for time in times])
         far = np.linalg.norm(suns, axis=1)
         share = np.array([plates.visible(*one) for one in zip(r, suns)])
-        air = np.exp(np.interp((distance - plates.RADIUS) / 1e3, plates.TABLE[:, 0], np.log(plates.TABLE[:, 1])))
+        air = self.file["environment"].get("density_scale", 1.0)
+        air *= np.exp(np.interp((distance - plates.RADIUS) / 1e3, plates.TABLE[:, 0], np.log(plates.TABLE[:, 1])))
         wind = v - np.cross([0, 0, plates.EARTH_RATE], r)
         columns = np.stack([r / distance[:, None], wind, suns / far[:, None], self.field(times, r)], axis=2)
         light = 4.56e-6 * share * (plates.AU / far) ** 2
@@ -272,16 +283,18 @@ class Loop:
         return np.array(out)
 
     def command(self, tick, y, rates):
-        """Torques of the wheels and dipoles of the rods, from what flight software knows."""
-        phase, q, omega, period = self.phase, y[:4], y[4:], self.period
-        r, v = np.split(self.orbit(tick * period), 2)
-        c = plates.dcm(q)
-        field = c.T @ self.field(tick * period, r[None])[0]
+        """Torques of the wheels and dipoles of the rods, from measurements without noise."""
+        q, omega, period = y[:4], y[4:], self.period
+        field = plates.dcm(q).T @ self.field(tick * period, self.orbit(tick * period)[None, :3])[0]
         if tick and self.is_filtered:
             turned = product(self.before * [1, -1, -1, -1], q)
             size = np.linalg.norm(turned[1:])
             omega = 2 * math.atan2(size, abs(turned[0])) / size / period * math.copysign(1, turned[0]) * turned[1:]
         self.before = q
+        return self.law(tick, q, omega, rates, field)
+
+    def law(self, tick, q, omega, rates, field):
+        phase, period, c = self.phase, self.period, plates.dcm(q)
         if phase["rods"] == "b_dot":
             dipole = phase["b_dot_gain_a_m2_s_t"] / period * (self.measured - field) if tick else np.zeros(3)
             self.measured = field
@@ -291,7 +304,7 @@ class Loop:
         rods /= max(1.0, (np.abs(rods) / self.most).max())
         if not self.wheels:
             return np.zeros(0), rods
-        frame, turning = orbital(r, v)
+        frame, turning = orbital(*np.split(self.orbit(tick * period), 2))
         error, target = quaternion(frame.T @ c)[1:], c.T @ turning
         self.z = self.z + phase["integral_1_s"] * period * error if tick else np.zeros(3)
         w, zeta = phase["bandwidth_rad_s"], phase["damping"]
