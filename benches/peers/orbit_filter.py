@@ -3,9 +3,9 @@
     python benches/peers/orbit_filter.py --spindrift target/release/spindrift --sample 7
 
 It flies a drawn scene as orbit_loop.py does, with a multiplicative extended Kalman filter that is written from
-docs/control-formulas.md. The measurements of each tick, with their noise and bias, are those of `spindrift simulate`.
-The exit code is 1 if attitude or estimated attitude (rad), or wheel rates, estimated bias and rate, relative to their
-largest, differ by more than --limit. Commands do not follow the state here: differences of the state stay.
+docs/control-formulas.md. Its measurements are those of its own state with the errors, noise and bias, of those of
+`spindrift simulate`. The exit code is 1 if attitude or estimated attitude (rad), or wheel rates, estimated bias and
+rate and commands, relative to their largest, differ by more than --limit.
 """
 
 import argparse
@@ -50,8 +50,9 @@ def axes_of(boresight):
 
 
 class Filter:
-    def __init__(self, loop, measured):
-        self.loop, self.measured, control = loop, measured, loop.file["control"]
+    def __init__(self, loop, measured, states, rates):
+        self.loop, self.measured, self.states, self.rates = loop, measured, states, rates
+        control = loop.file["control"]
         self.sensors = {sensor["name"]: sensor for sensor in loop.file["sensors"]}
         self.q, self.omega, self.bias = loop.q, loop.omega, np.zeros(3)
         sigmas = [control["initial_attitude_sigma_rad"]] * 3 + [control["initial_bias_sigma_rad_s"]] * 3
@@ -84,10 +85,33 @@ class Filter:
         grown = [[(sv**2 * t + su**2 * t**3 / 3) * n @ n.T, mixed], [mixed.T, su**2 * t * one]]
         self.q, self.p = product(self.q, exponential(rho)), f @ self.p @ f.T + np.block(grown)
 
-    def command(self, tick, *_):
+    def measurements(self, tick, q, rates):
+        """What is delivered at a tick: of the own state, with the errors of the other's measurement of its own."""
+        at, t = {name: values[tick] for name, values in self.measured.items()}, self.loop.period
+        field = self.loop.field(tick * t, self.loop.orbit(tick * t)[None, :3])[0]
+        back = lambda one: one * [1, -1, -1, -1]
+        at["wheels"] = at["wheels"] - self.rates[tick] + rates
+        at["field"] = at["field"] + (plates.dcm(q) - plates.dcm(self.states[tick])).T @ field
+        axes = axes_of(self.sensors["sun"]["boresight"]).T
+        seen = lambda q: np.arctan(
+            (u := axes @ plates.dcm(q).T @ plates.sun(self.loop.field.days + tick * t / 86400))[:2] / u[2]
+        )
+        at["sun"] = at["sun"] + seen(q) - seen(self.states[tick])
+        if tick:
+            # that of the tick before
+            at["tracker"] = product(self.before, product(back(self.states[tick - 1]), at["tracker"]))
+            turned, other = (
+                logarithm(product(back(self.before), q)),
+                logarithm(product(back(self.states[tick - 1]), self.states[tick])),
+            )
+            at["gyro"] = at["gyro"] + (turned - other) / t
+        self.before = q
+        return at
+
+    def command(self, tick, y, rates):
         """Estimates of a tick, and what the law commands for them."""
         loop, sensors, t = self.loop, self.sensors, self.loop.period
-        at = {name: values[tick] for name, values in self.measured.items()}
+        at = self.measurements(tick, y[:4], rates)
         if tick:
             if not np.isnan(at["tracker"][0]):  # taken at the tick before, as the last of that tick
                 noise = axes_of(sensors["tracker"]["boresight"]) * sensors["tracker"]["noise_rad"]
@@ -147,7 +171,7 @@ def main():
         "field": columns("measured_field_s_{}_t", "axes"),
         "wheels": columns("measured_rate_{}_rad_s", "wheels"),
     }
-    flight = Filter(Loop(plan), measured)
+    flight = Filter(Loop(plan), measured, columns("q_es_{}", "q"), columns("rate_{}_rad_s", "wheels"))
     truth = Loop(drawn(plan, row))
     truth.command = flight.command
     found, log = truth.fly(0.25, np.array(table["time_s"])), np.array(flight.log)
