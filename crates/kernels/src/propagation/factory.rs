@@ -41,7 +41,7 @@ impl PropagationSettings {
     /// True if loops fly one at a time ([`BuildNarrow`]).
     fn has_narrow_kernel(&self) -> bool {
         match self.method {
-            Method::Auto | Method::Taylor => self.feedback && self.is_forced(),
+            Method::Auto | Method::Taylor => self.feedback && self.is_forced() && !self.changes_within_arcs(),
             Method::Gyrostat(Integrator::DormandPrince) => self.feedback && self.changes_within_arcs(),
             _ => false,
         }
@@ -107,6 +107,10 @@ impl LaneWork for BuildTaylor<'_> {
     type Output = Box<dyn Engine>;
 
     fn run<S: Simd, R: Real + Send + 'static>(self, simd: S, zero: R) -> Self::Output {
+        if self.0.changes_within_arcs() {
+            // all integrals by series
+            return taylor!(self, simd, zero, Acting<R>, WITH_THRUST, WITH_THRUST, true);
+        }
         if self.0.is_forced() {
             return BuildForced(self.0).run(simd, zero);
         }
@@ -125,8 +129,6 @@ impl LaneWork for BuildForced<'_> {
 
     fn run<S: Simd, R: Real + Send + 'static>(self, simd: S, zero: R) -> Self::Output {
         match self.0.components() {
-            // all integrals by series
-            _ if self.0.changes_within_arcs() => taylor!(self, simd, zero, Acting<R>, WITH_THRUST, WITH_THRUST, true),
             WITH_THRUST => taylor!(self, simd, zero, NoEffects, WITH_THRUST, WITH_ANGLES, true),
             _ => taylor!(self, simd, zero, NoEffects, WITH_MOTORS, WITH_ANGLES, true),
         }
