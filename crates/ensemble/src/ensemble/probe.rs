@@ -71,7 +71,7 @@ impl RunProbe {
         let mut worker = ensemble.worker();
         let points = whole.grid.points() as f64 / plan.grid.points() as f64;
         let longer = whole.grid.duration() / plan.grid.duration();
-        // loops of many ticks are not flown alone: a run alone would take the time of all lanes
+        // the time of a run of a campaign is that of a run in lanes, a fraction of that of a run alone
         let first = if plan.loop_spec().is_some() && !has_callback(&plan) { WIDTH } else { 1 };
         let (mut count, mut total) = (first.min(most), 0.0);
         loop {

@@ -34,14 +34,12 @@ impl PropagationSettings {
         }
     }
 
-    fn is_forced(&self) -> bool {
-        self.changes_within_arcs() || self.thrust || self.motors
-    }
-
     /// True if loops fly one at a time ([`BuildNarrow`]).
     fn has_narrow_kernel(&self) -> bool {
         match self.method {
-            Method::Auto | Method::Taylor => self.feedback && self.is_forced() && !self.changes_within_arcs(),
+            Method::Auto | Method::Taylor => {
+                self.feedback && (self.thrust || self.motors) && !self.changes_within_arcs()
+            }
             Method::Gyrostat(Integrator::DormandPrince) => self.feedback && self.changes_within_arcs(),
             _ => false,
         }
@@ -111,7 +109,7 @@ impl LaneWork for BuildTaylor<'_> {
             // all integrals by series
             return taylor!(self, simd, zero, Acting<R>, WITH_THRUST, WITH_THRUST, true);
         }
-        if self.0.is_forced() {
+        if self.0.thrust || self.0.motors {
             return BuildForced(self.0).run(simd, zero);
         }
         match self.0.components() {
