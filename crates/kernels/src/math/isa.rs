@@ -151,6 +151,16 @@ impl Isa {
         }
     }
 
+    /// Runs `work` in eight lanes, which AVX-512 holds in one register: where operands of sixteen exceed the first cache.
+    pub fn run_eight<W: LaneWork>(self, work: W) -> W::Output {
+        dispatch! { self, simd,
+            "avx512" as_avx512 => work.run(simd, Lanes::broadcast(simd, 0.0)),
+            "avx2" as_avx2 => work.run(simd, Lanes::broadcast(simd, 0.0)),
+            plain => work.run(simd, 0.0),
+            elsewhere => work.run(simd, Lanes::broadcast(simd, 0.0)),
+        }
+    }
+
     /// Runs `work` compiled for this instruction set.
     #[inline]
     pub fn run<W: Work>(self, work: W) -> W::Output {

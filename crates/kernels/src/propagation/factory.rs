@@ -16,7 +16,7 @@ use crate::dynamics::gyrostat::{RATES_ONLY, WITH_ANGLES, WITH_ATTITUDE, WITH_MOT
 use crate::math::isa::LaneWork;
 use crate::math::{Isa, Real};
 use crate::ode::integrators::Visitor;
-use crate::ode::{self, Adaptive, DormandPrince, Integrator};
+use crate::ode::{self, Adaptive, Dop853, DormandPrince, Integrator};
 use crate::scene::{MAX_WHEELS, Scene};
 
 impl PropagationSettings {
@@ -47,7 +47,14 @@ impl PropagationSettings {
 
     fn engine_in_lanes(&self, isa: Isa) -> Box<dyn Engine> {
         match self.method {
+            Method::Auto | Method::Taylor if self.changes_within_arcs() => isa.run_eight(BuildActing(self)),
             Method::Auto | Method::Taylor => isa.run_wide(BuildTaylor(self)),
+            Method::Gyrostat(Integrator::Dop853) if self.changes_within_arcs() => {
+                isa.run_eight(BuildUnderEffects(self, Adaptive(Dop853)))
+            }
+            Method::Gyrostat(Integrator::DormandPrince) if self.changes_within_arcs() => {
+                isa.run_eight(BuildUnderEffects(self, Adaptive(DormandPrince)))
+            }
             Method::Gyrostat(integrator) => isa.run_narrow(BuildGyrostat(self, integrator)),
             Method::NullSpace => isa.run_narrow(BuildNullSpace(self)),
         }
@@ -98,6 +105,17 @@ macro_rules! taylor {
     };
 }
 
+/// The Taylor engine under effects within arcs: all integrals by series.
+struct BuildActing<'a>(&'a PropagationSettings);
+
+impl LaneWork for BuildActing<'_> {
+    type Output = Box<dyn Engine>;
+
+    fn run<S: Simd, R: Real + Send + 'static>(self, simd: S, zero: R) -> Self::Output {
+        taylor!(self, simd, zero, Acting<R>, WITH_THRUST, WITH_THRUST, true)
+    }
+}
+
 /// The Taylor engine with the needed components. Forced runs always have the motors': fewer kernels to compile.
 struct BuildTaylor<'a>(&'a PropagationSettings);
 
@@ -105,10 +123,6 @@ impl LaneWork for BuildTaylor<'_> {
     type Output = Box<dyn Engine>;
 
     fn run<S: Simd, R: Real + Send + 'static>(self, simd: S, zero: R) -> Self::Output {
-        if self.0.changes_within_arcs() {
-            // all integrals by series
-            return taylor!(self, simd, zero, Acting<R>, WITH_THRUST, WITH_THRUST, true);
-        }
         if self.0.thrust || self.0.motors {
             return BuildForced(self.0).run(simd, zero);
         }
@@ -155,6 +169,18 @@ impl LaneWork for BuildGyrostat<'_> {
             }
             _ => integrator.visit(OnGyrostats { simd, zero, settings, effects: PhantomData::<NoEffects> }),
         }
+    }
+}
+
+/// A method under effects within arcs.
+struct BuildUnderEffects<'a, M>(&'a PropagationSettings, M);
+
+impl<M: ode::LaneMethod + Send + 'static> LaneWork for BuildUnderEffects<'_, M> {
+    type Output = Box<dyn Engine>;
+
+    fn run<S: Simd, R: Real + Send + 'static>(self, simd: S, zero: R) -> Self::Output {
+        let BuildUnderEffects(settings, method) = self;
+        OnGyrostats { simd, zero, settings, effects: PhantomData::<Acting<R>> }.visit(method)
     }
 }
 
