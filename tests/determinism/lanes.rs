@@ -81,7 +81,7 @@ fn many_wheels_among_any_runs() {
     });
 }
 
-/// Law: so do runs on orbits about a point mass and a flattened body, with air and light that turn and move them.
+/// Law: so do runs on orbits about a point mass, circles among others, and about a flattened body, with air and light that turn and move them.
 #[test]
 fn orbits_among_any_runs() {
     let turning = |forced: bool| {
@@ -97,8 +97,19 @@ fn orbits_among_any_runs() {
         }
         scenes
     };
+    let round = |forced: bool| {
+        let mut scenes = turning(forced);
+        for (_, scene) in scenes.iter_mut().enumerate().filter(|(k, _)| k % 3 > 0) {
+            let orbit = scene.orbit.as_mut().unwrap();
+            let [x, y, _] = orbit.position;
+            let across = [-y, x, 0.0];
+            let speed = (orbit.mu / norm(orbit.position)).sqrt();
+            orbit.velocity = scaled(speed / norm(across), across);
+        }
+        scenes
+    };
     let moved = |forced: bool| coupled(13, if forced { 5 } else { 6 });
-    let families: [&(dyn Fn(bool) -> Vec<Scene> + Sync); 3] = [&turning, &flattened, &moved];
+    let families: [&(dyn Fn(bool) -> Vec<Scene> + Sync); 4] = [&turning, &flattened, &round, &moved];
     for scenes in families {
         let able = METHODS.par_iter().filter(|(method, _)| method.integrates(ForceModel::of(&scenes(true)[0])));
         able.for_each(|(method, control)| {

@@ -29,6 +29,9 @@ const MOST_CORRECTIONS: usize = 30;
 /// section 6.6).
 const START: f64 = 0.85;
 
+/// Eccentricities below this are those of circles, computed from their positions and velocities.
+const CIRCLE: f64 = 4.0 * f64::EPSILON;
+
 /// Defines the orbit with its scalars, which are treated alike.
 macro_rules! kepler_orbit {
     ($($(#[$doc:meta])* $scalar:ident,)*) => {
@@ -165,6 +168,12 @@ impl<R: Real> KeplerOrbit<R> {
     #[inline(always)]
     pub fn start(&self) -> [[R; 3]; 2] {
         [self.position, self.velocity]
+    }
+
+    /// One in lanes whose orbit is a circle, else zero.
+    #[inline(always)]
+    pub fn circle(&self) -> R {
+        self.eccentricity.indicator(self.eccentricity.lt(self.eccentricity.splat(CIRCLE)))
     }
 
     /// The state at `time`, s.

@@ -6,6 +6,7 @@
 //! r' = v - omega x r        v' = -s r - omega x v        s = mu rho^(-3/2)        rho = r . r
 //! ```
 //!
+//! On a circle s is constant, and with principal axes no squares of r are needed: 12 and 3 products.
 //! About a flattened body or near the orbit 32 products turn a position in F_e by the quaternion, q* (x) r (x) q.
 
 use super::effects::within_arcs::MotionSeries;
@@ -22,10 +23,16 @@ pub struct OrbitInBody<R> {
     pull: Vec<R>,
     /// r (x) q, with r in F_e, if r is turned.
     turned: Vec<[R; 4]>,
-    /// r_x^2, r_y^2, r_z^2, r_y r_z, r_z r_x, r_x r_y.
-    products: Vec<[R; 6]>,
+    /// Last coefficients of r_x^2, r_y^2, r_z^2, r_y r_z, r_z r_x, r_x r_y.
+    products: [R; 6],
     /// rho, m^2.
     square: Vec<R>,
+    /// One in lanes with constant s, else zero.
+    circle: R,
+    /// True if s is constant in all lanes.
+    is_round: bool,
+    /// True if B is principal in all lanes.
+    is_principal: bool,
 }
 
 impl<R: Real> OrbitInBody<R> {
@@ -36,9 +43,28 @@ impl<R: Real> OrbitInBody<R> {
             velocity: vectors,
             pull: numbers.clone(),
             turned: vec![[zero; 4]; order + 1],
-            products: vec![[zero; 6]; order + 1],
+            products: [zero; 6],
             square: numbers,
+            circle: zero,
+            is_round: false,
+            is_principal: false,
         }
+    }
+
+    /// Starts a step along `motion` for the levers of `inertia`.
+    #[inline(always)]
+    pub fn begin(&mut self, inertia: &[[R; 3]; 3], motion: &MotionSeries<R>) {
+        let zero = self.circle.zero();
+        self.circle = if motion.is_on_two_body_orbit() { motion.circle } else { zero };
+        self.is_round = !self.circle.lt(zero.splat(1.0)).any();
+        let [[_, xy, xz], [.., yz], _] = *inertia;
+        self.is_principal = !zero.lt(xy.abs() + (xz.abs() + yz.abs())).any();
+    }
+
+    /// True if s is constant in all lanes.
+    #[inline(always)]
+    pub fn is_round(&self) -> bool {
+        self.is_round
     }
 
     /// Computes the coefficients n from those of the motion, for ascending `n`.
@@ -49,9 +75,14 @@ impl<R: Real> OrbitInBody<R> {
         } else {
             self.turn(n, motion);
         }
-        self.products[n] = products(&self.position[..=n]);
-        let [xx, yy, zz, ..] = self.products[n];
-        let Self { square, pull, .. } = self;
+        let position = &self.position[..=n];
+        if self.is_round && n > 0 {
+            self.products = if self.is_principal { mixed_products(position) } else { products(position) };
+            return;
+        }
+        self.products = products(position);
+        let [xx, yy, zz, ..] = self.products;
+        let Self { square, pull, circle, .. } = self;
         square[n] = xx + (yy + zz);
         if n == 0 {
             // from F_e: an idle lane has no attitude, and its distance must still be positive
@@ -60,7 +91,8 @@ impl<R: Real> OrbitInBody<R> {
             let inverse = xx.splat(1.0) / square[0].sqrt();
             pull[0] = motion.reference().gravity().mu * (inverse * (inverse * inverse));
         } else {
-            pull[n] = next_of_power(-1.5, n, square, pull);
+            let zero = xx.zero();
+            pull[n] = R::select(zero.lt(*circle), zero, next_of_power(-1.5, n, square, pull));
         }
     }
 
@@ -76,13 +108,17 @@ impl<R: Real> OrbitInBody<R> {
             return;
         }
         let zero = pull[0].zero();
-        let (mut of_position, mut of_velocity) = (velocity[n - 1], [zero; 3]);
+        let (mut of_position, mut of_velocity) = (velocity[n - 1], scaled(-pull[0], position[n - 1]));
         let later = position[..n].iter().rev().zip(velocity[..n].iter().rev());
-        for ((rate, pull), (r, v)) in motion.rate[..n].iter().zip(&pull[..n]).zip(later) {
+        for (rate, (r, v)) in motion.rate[..n].iter().zip(later) {
             of_position = minus_cross(*rate, *r, of_position);
             of_velocity = minus_cross(*rate, *v, of_velocity);
-            for i in 0..3 {
-                of_velocity[i] = pull.neg_mul_add(r[i], of_velocity[i]);
+        }
+        if !self.is_round {
+            for (pull, r) in pull[1..n].iter().zip(position[..n - 1].iter().rev()) {
+                for i in 0..3 {
+                    of_velocity[i] = pull.neg_mul_add(r[i], of_velocity[i]);
+                }
             }
         }
         let share = zero.splat(1.0) / zero.splat(n as f64);
@@ -115,13 +151,14 @@ impl<R: Real> OrbitInBody<R> {
         for (quotient, square) in before[..n].iter().zip(square[1..=n].iter().rev()) {
             left = quotient.neg_mul_add(*square, left);
         }
-        left / square[0]
+        let quotient = left / square[0];
+        if n == 0 { quotient } else { R::select(left.zero().lt(self.circle), left.zero(), quotient) }
     }
 
-    /// Coefficient n of r x (J r) for a symmetric `inertia` in B.
+    /// Last coefficient of r x (J r) for a symmetric `inertia` in B.
     #[inline(always)]
-    pub fn lever(&self, n: usize, inertia: &[[R; 3]; 3]) -> [R; 3] {
-        let [xx, yy, zz, yz, zx, xy] = self.products[n];
+    pub fn lever(&self, inertia: &[[R; 3]; 3]) -> [R; 3] {
+        let [xx, yy, zz, yz, zx, xy] = self.products;
         let [[j_xx, j_xy, j_xz], [_, j_yy, j_yz], [.., j_zz]] = *inertia;
         [
             (j_zz - j_yy).mul_add(yz, j_yz.mul_add(yy - zz, j_xz.mul_add(xy, -(j_xy * zx)))),
@@ -129,12 +166,6 @@ impl<R: Real> OrbitInBody<R> {
             (j_yy - j_xx).mul_add(xy, j_xy.mul_add(xx - yy, j_yz.mul_add(zx, -(j_xz * yz)))),
         ]
     }
-}
-
-#[inline(always)]
-fn minus_cross<R: Real>(a: [R; 3], b: [R; 3], sum: [R; 3]) -> [R; 3] {
-    let [x, y, z] = [a[2].mul_add(b[1], sum[0]), a[0].mul_add(b[2], sum[1]), a[1].mul_add(b[0], sum[2])];
-    [a[1].neg_mul_add(b[2], x), a[2].neg_mul_add(b[0], y), a[0].neg_mul_add(b[1], z)]
 }
 
 /// Last coefficients of the products of the components of r.
@@ -150,6 +181,17 @@ fn products<R: Real>(r: &[[R; 3]]) -> [R; 6] {
     }
     let [[xx, yy, zz], [yz, zx, xy]] = [squares, others];
     [xx, yy, zz, yz, zx, xy]
+}
+
+/// Those of unlike components of r, with zero in place of the squares.
+#[inline(always)]
+fn mixed_products<R: Real>(r: &[[R; 3]]) -> [R; 6] {
+    let zero = r[0][0].zero();
+    let [mut yz, mut zx, mut xy] = [zero; 3];
+    for (a, b) in r.iter().zip(r.iter().rev()) {
+        [yz, zx, xy] = [a[1].mul_add(b[2], yz), a[2].mul_add(b[0], zx), a[0].mul_add(b[1], xy)];
+    }
+    [zero, zero, zero, yz, zx, xy]
 }
 
 #[inline(always)]

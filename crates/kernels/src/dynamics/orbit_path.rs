@@ -286,6 +286,12 @@ impl<R: Real> PathsInLanes<R> {
         self.start.gravity()
     }
 
+    /// One in lanes whose two-body orbit is a circle, else zero.
+    #[inline(always)]
+    pub fn circle(&self) -> R {
+        self.start.circle()
+    }
+
     /// [`OrbitPath::state_at`] in all lanes.
     #[inline(always)]
     pub fn state_at(&self, time: [R; 2]) -> OrbitState<R> {

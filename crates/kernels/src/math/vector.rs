@@ -45,6 +45,13 @@ pub fn dot<R: Real>(a: [R; 3], b: [R; 3]) -> R {
     a[0].mul_add(b[0], a[1].mul_add(b[1], a[2] * b[2]))
 }
 
+/// `sum` - a x b.
+#[inline(always)]
+pub fn minus_cross<R: Real>(a: [R; 3], b: [R; 3], sum: [R; 3]) -> [R; 3] {
+    let [x, y, z] = [a[2].mul_add(b[1], sum[0]), a[0].mul_add(b[2], sum[1]), a[1].mul_add(b[0], sum[2])];
+    [a[1].neg_mul_add(b[2], x), a[2].neg_mul_add(b[0], y), a[0].neg_mul_add(b[1], z)]
+}
+
 /// `a x b`.
 #[inline(always)]
 pub fn cross<R: Real>(a: [R; 3], b: [R; 3]) -> [R; 3] {

@@ -188,7 +188,9 @@ macro_rules! effects {
                 constant: [R; 3],
             ) -> [R; 3] {
                 let mut own = [attitude[0].zero(); 3];
-                self.motion.attitude[n] = attitude;
+                if n == 0 || !self.motion.follows_rate() {
+                    self.motion.attitude[n] = attitude;
+                }
                 self.motion.rate[n] = rate;
                 if self.has_orbit {
                     self.motion.extend_orbit(n, offset);

@@ -94,12 +94,19 @@ impl<R: Real> GradientSeries<R> {
     #[inline(always)]
     pub fn extend(&mut self, n: usize, motion: &MotionSeries<R>) -> [R; 3] {
         let GradientSeries { inertia, orbit, lever, strength } = self;
+        if n == 0 {
+            orbit.begin(inertia, motion);
+        }
         orbit.extend(n, motion);
-        strength[n] = orbit.pull_over_square(n, strength);
-        let three = strength[0].splat(3.0);
-        lever[n] = scaled(three, orbit.lever(n, inertia));
+        let three = inertia[0][0].splat(3.0);
+        // on a circle the strength is a number, and few coefficients are kept in the first cache
+        let last = if orbit.is_round() { 0 } else { n };
+        lever[last] = scaled(three, orbit.lever(inertia));
+        if last == n {
+            strength[n] = orbit.pull_over_square(n, strength);
+        }
         let mut own = [three.zero(); 3];
-        for (g, lever) in strength[..=n].iter().zip(lever[..=n].iter().rev()) {
+        for (g, lever) in strength[..=last].iter().zip(lever[..=last].iter().rev()) {
             for i in 0..3 {
                 own[i] = g.mul_add(lever[i], own[i]);
             }

@@ -108,6 +108,8 @@ pub struct MotionSeries<R> {
     may_leave: bool,
     /// True if the orbit's coefficients beyond the first two are needed.
     keeps_orbit: bool,
+    /// One in lanes whose two-body orbit is a circle, along which the pull is constant, else zero.
+    pub circle: R,
     /// Gravity at the spacecraft minus gravity at the point on the orbit, F_e, m per unit squared.
     tide: Vec<[R; 3]>,
 }
@@ -122,6 +124,7 @@ impl<R: Real> MotionSeries<R> {
             offset: OffsetSeries::new(zero, order),
             may_leave: false,
             keeps_orbit: false,
+            circle: zero,
             tide: vec![[zero; 3]; order + 1],
         }
     }
@@ -160,6 +163,12 @@ impl<R: Real> MotionSeries<R> {
     #[inline(always)]
     pub fn is_on_two_body_orbit(&self) -> bool {
         !self.may_leave && self.orbit.gravity().oblateness.is_none()
+    }
+
+    /// True if only the first coefficient of the attitude is needed: the position in B follows from the rate.
+    #[inline(always)]
+    pub fn follows_rate(&self) -> bool {
+        !self.may_leave && !self.keeps_orbit
     }
 
     /// True if the spacecraft may leave that orbit.
@@ -476,6 +485,7 @@ impl<R: Real> WithinArcs<R> for Acting<R> {
         memory: &'m mut ChangingSeries<R>,
     ) -> Option<&'m mut ChangingSeries<R>> {
         let place = self.orbit.as_ref().map(|orbit| (orbit.gravity(), orbit.state_at(time)));
+        memory.motion.circle = self.orbit.as_ref().map_or(self.zero, PathsInLanes::circle);
         memory.begin(&self.effects, place.as_ref(), self.leaving.is_some(), time[0], unit);
         Some(memory)
     }

@@ -6,7 +6,7 @@
 use fearless_simd::Simd;
 
 use super::dense::values;
-use super::jet::expand;
+use super::jet::{expand, turn_impulse};
 use super::lanes::{RunCallback, RunLanes};
 use super::period_folding::{PeriodFolding, folded_lanes, is_due};
 use super::period_search::{period, return_time};
@@ -14,9 +14,9 @@ use super::points::{StepSeries, TakenStep, Until};
 use super::thrust::Push;
 use super::workspace::Workspace;
 use crate::dynamics::effects::within_arcs::WithinArcs;
-use crate::dynamics::gyrostat::{ANGLE, Gyrostat, OMEGA, WITH_THRUST};
+use crate::dynamics::gyrostat::{ANGLE, ANGULAR_IMPULSE, ATTITUDE, Gyrostat, OMEGA, WITH_THRUST};
 use crate::math::sums::{fast_two_sum, two_sum};
-use crate::math::vector::{lane_of, scaled, three};
+use crate::math::vector::{four, lane_of, scaled, three};
 use crate::math::{Mask, Real};
 use crate::propagation::arc_source::ArcSource;
 use crate::run::{Grid, Status};
@@ -105,8 +105,11 @@ impl<S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize> RunLane
             truncation.add(&segment.jet, length);
         }
         // the increment first, then the state with its carry
-        let [slope] = values(&segment.jet[1..=order], [length]);
+        let [mut slope] = values(&segment.jet[1..=order], [length]);
         for i in 0..J {
+            if E::ACT && i == ANGULAR_IMPULSE {
+                turn_impulse(four(&vectors.state, ATTITUDE), &mut slope);
+            }
             let increment = slope[i].mul_add(length, vectors.state_low[i]);
             (vectors.state[i], vectors.state_low[i]) = fast_two_sum(vectors.state[i], increment);
         }

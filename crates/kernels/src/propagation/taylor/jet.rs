@@ -3,7 +3,8 @@
 //! All equations are quadratic: the coefficient of order n + 1 is a Cauchy product of those up to n, divided by n + 1
 //! (R. E. Moore, *Interval Analysis*, 1966, ch. 11; A. Jorba & M. Zou, Experimental Mathematics 14, 2005, section 2).
 //! The recurrences of thrust serve [`super::reference_solution`] alone; integration in `f64` uses [`super::thrust`], so
-//! that each tests the other.
+//! that each tests the other. Under effects the angular impulse since the start of a step is a series in B, where it
+//! needs one cross product of series: with the torque tau, a' = tau - omega x a.
 
 use crate::dynamics::effects::ChangingSeries;
 use crate::dynamics::gyrostat::equations::Constants;
@@ -57,7 +58,7 @@ impl<R: Real> Scratch<R> {
 /// Fills `jet[1 ..= order]` with the Taylor coefficients of the first `N` components from the state `jet[0]`.
 ///
 /// `constants.momentum` is the wheels' momentum *at the start of the step*, where `effects` have begun. Without
-/// `FORCED`, torques, thrusts and the rate of the momentum are zero.
+/// `FORCED`, torques, thrusts and the rate of the momentum are zero. With `effects`, [`turn_impulse`] is due.
 #[inline(always)]
 pub fn expand<R: Real, const N: usize, const FORCED: bool>(
     constants: &Constants<R>,
@@ -72,6 +73,9 @@ pub fn expand<R: Real, const N: usize, const FORCED: bool>(
     let zero = jet[0][0].zero();
     let half = zero.splat(0.5);
     let Scratch { turned_force, turned_torque, force_e } = scratch;
+    if N >= WITH_THRUST && effects.is_some() {
+        jet[0][ANGULAR_IMPULSE..ANGULAR_IMPULSE + 3].fill(zero);
+    }
     // without effects an arc has a force, a torque or both: effects exert torques only
     let [x, y, z] = constants.force;
     let is_pushed = effects.is_none() || zero.lt(x.abs() + (y.abs() + z.abs())).any();
@@ -113,12 +117,13 @@ pub fn expand<R: Real, const N: usize, const FORCED: bool>(
         }
         if N >= WITH_THRUST && FORCED {
             let q = four(&jet[n], ATTITUDE);
-            let spun;
-            (turned_torque[n], spun) = match &effects {
+            let (torque, spun) = match &effects {
                 Some(effects) => products_of_torque(jet, effects.torque(), n),
-                None => (quaternion_products(q, constants.torque, [zero; 4]), dot(constants.torque, omega)),
+                None => {
+                    turned_torque[n] = quaternion_products(q, constants.torque, [zero; 4]);
+                    (turned(jet, turned_torque, n), dot(constants.torque, omega))
+                }
             };
-            let torque_e = turned(jet, turned_torque, n);
             let (mut force, mut push) = ([zero; 3], zero);
             if is_pushed {
                 turned_force[n] = quaternion_products(q, constants.force, [zero; 4]);
@@ -139,7 +144,7 @@ pub fn expand<R: Real, const N: usize, const FORCED: bool>(
             for i in 0..3 {
                 next[IMPULSE + i] = force[i] * inverse;
                 next[IMPULSE_INTEGRAL + i] = jet[n][IMPULSE + i] * inverse;
-                next[ANGULAR_IMPULSE + i] = torque_e[i] * inverse;
+                next[ANGULAR_IMPULSE + i] = torque[i] * inverse;
             }
             next[THRUST_WORK] = (push + spun) * inverse;
         }
@@ -155,17 +160,25 @@ fn offset_of<R: Real, const N: usize>(constants: &Constants<R>, coefficients: &[
     scaled(constants.inverse_mass, three(coefficients, IMPULSE_INTEGRAL))
 }
 
+/// Coefficients n of tau - omega x a and tau . omega, with the torque tau in B.
 #[inline(always)]
-fn products_of_torque<R: Real, const N: usize>(jet: &[[R; N]], torque: &[[R; 3]], n: usize) -> ([R; 4], R) {
-    let zero = jet[0][0].zero();
-    let (mut turned, mut spun) = ([zero; 4], [zero; 3]);
-    for (torque, earlier) in torque[..=n].iter().zip(jet[..=n].iter().rev()) {
-        turned = quaternion_products(four(earlier, ATTITUDE), *torque, turned);
+fn products_of_torque<R: Real, const N: usize>(jet: &[[R; N]], torque: &[[R; 3]], n: usize) -> ([R; 3], R) {
+    let (mut all, mut spun) = (torque[n], [jet[0][0].zero(); 3]);
+    for ((torque, later), earlier) in torque[..=n].iter().zip(&jet[..=n]).zip(jet[..=n].iter().rev()) {
+        let omega = three(earlier, OMEGA);
+        all = minus_cross(omega, three(later, ANGULAR_IMPULSE), all);
         for i in 0..3 {
-            spun[i] = torque[i].mul_add(earlier[OMEGA + i], spun[i]);
+            spun[i] = torque[i].mul_add(omega[i], spun[i]);
         }
     }
-    (turned, spun[0] + (spun[1] + spun[2]))
+    (all, spun[0] + (spun[1] + spun[2]))
+}
+
+/// Turns the angular impulse since the start of a step from B to F_e at the attitude `q_eb`.
+#[inline(always)]
+pub fn turn_impulse<R: Real, const N: usize>(q_eb: [R; 4], components: &mut [R; N]) {
+    let turned = product(dcm_from_quaternion(q_eb), three(components, ANGULAR_IMPULSE));
+    components[ANGULAR_IMPULSE..ANGULAR_IMPULSE + 3].copy_from_slice(&turned);
 }
 
 /// Coefficient n of omega' = ratio omega omega + (h x omega + torque - h')/J, from the products of two rates.

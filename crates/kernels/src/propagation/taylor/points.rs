@@ -1,12 +1,13 @@
 //! Observation points: of all lanes during a step, and one by one from kept series.
 
 use super::dense::{Segment, value_at, values};
+use super::jet::turn_impulse;
 use super::lane_state::SeriesLane;
 use super::lane_vectors::si_factors;
 use super::series_ring::SeriesRing;
 use super::thrust::{Push, Quadrature};
 use crate::dynamics::gyrostat::equations::Constants;
-use crate::dynamics::gyrostat::{ANGLE, WITH_THRUST};
+use crate::dynamics::gyrostat::{ANGLE, ANGULAR_IMPULSE, ATTITUDE, WITH_THRUST};
 use crate::math::prelude::*;
 use crate::run::{Grid, Trajectory};
 
@@ -38,7 +39,14 @@ impl<R: Real, const N: usize, const J: usize> StepSeries<'_, R, N, J> {
         let TakenStep { constants, begin, order, length, push } = step;
         let jet = &segment.jet[..=*order];
         let x = R::select(due, (at - segment.start) - segment.start_low, zero);
-        let [found] = values(jet, [x]);
+        let [mut found] = values(jet, [x]);
+        if FORCED && N >= WITH_THRUST && N == J {
+            // effects act
+            turn_impulse(four(&found, ATTITUDE), &mut found);
+            for i in ANGULAR_IMPULSE..ANGULAR_IMPULSE + 3 {
+                found[i] += begin[i];
+            }
+        }
         let mut all = [zero; N];
         all[..J].copy_from_slice(&found);
         if FORCED {

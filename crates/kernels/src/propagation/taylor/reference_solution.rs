@@ -10,7 +10,7 @@
 
 use fearless_simd::Simd;
 
-use super::jet::{Reciprocals, Scratch, expand};
+use super::jet::{Reciprocals, Scratch, expand, turn_impulse};
 use super::lane_vectors::si_factors;
 pub use super::reference_run::MOST_STEPS;
 use super::reference_run::{Integration, N, ReferenceOrbit};
@@ -345,14 +345,14 @@ impl Integration<'_, '_> {
                     if !covered {
                         break;
                     }
-                    let mut values = value(&jet, within);
+                    let mut values = value(&jet, within, &state, series.is_some());
                     scale(&mut values, factors);
                     if let Some((orbit, along)) = orbit.as_ref().zip(along) {
                         orbit.complete(*at, &orbit.at(along, within), &mut values);
                     }
                     states.push(values);
                 }
-                state = value(&jet, step);
+                state = value(&jet, step, &state, series.is_some());
                 if let Some((orbit, along)) = orbit.as_mut().zip(along) {
                     orbit.place = orbit.at(along, step);
                 }
@@ -420,12 +420,24 @@ fn scale(values: &mut [DoubleDouble; N], factors: [f64; N]) {
     }
 }
 
+/// Components `x` after `start`; `has_effects`: the jet is one with effects.
 #[inline(always)]
-fn value(jet: &[[DoubleDouble; N]], x: DoubleDouble) -> [DoubleDouble; N] {
+fn value(
+    jet: &[[DoubleDouble; N]],
+    x: DoubleDouble,
+    start: &[DoubleDouble; N],
+    has_effects: bool,
+) -> [DoubleDouble; N] {
     let mut sums = jet[jet.len() - 1];
     for coefficients in jet[..jet.len() - 1].iter().rev() {
         for i in 0..N {
             sums[i] = sums[i].mul_add(x, coefficients[i]);
+        }
+    }
+    if has_effects {
+        turn_impulse(four(&sums, ATTITUDE), &mut sums);
+        for i in ANGULAR_IMPULSE..ANGULAR_IMPULSE + 3 {
+            sums[i] += start[i];
         }
     }
     sums
