@@ -3,7 +3,7 @@
 use super::embedded::Embedded;
 use super::error_model::ErrorModel;
 use super::explicit::{Carried, Step, chosen};
-use super::step_control::{Control, shortest_step};
+use super::step_control::{Control, factor_from_edge, shortest_step};
 use super::stepper::{Attempt, LaneMethod, Proposal, Stepper, StepperLane};
 use super::system::{System, Tolerance};
 use crate::math::real::{Mask, Real};
@@ -35,6 +35,7 @@ impl<M: Embedded> LaneMethod for Adaptive<M> {
             retry: zero.never(),
             cut: zero.never(),
             resumed: zero,
+            smooth: zero,
             is_prepared: false,
         }
     }
@@ -56,6 +57,8 @@ pub struct AdaptiveStepper<M: Embedded, R: Real, const N: usize> {
     /// True if the step ends at a switch; the step that it replaces, s.
     cut: R::Mask,
     resumed: R,
+    /// Length of the next step before the motion came to where f is not smooth, s.
+    smooth: R,
     /// True if states inside the last attempted step can be computed.
     is_prepared: bool,
 }
@@ -88,6 +91,7 @@ impl<M: Embedded, R: Real, const N: usize> Stepper<R, N> for AdaptiveStepper<M, 
     fn start_arc(&mut self, lane: usize, start: f64, _end: f64) {
         self.starting.set(lane, true);
         self.continued.set(lane, start > 0.0);
+        self.smooth.set_lane(lane, 0.0);
         self.retry.set(lane, false);
         self.cut.set(lane, false);
     }
@@ -131,7 +135,7 @@ impl<M: Embedded, R: Real, const N: usize> Stepper<R, N> for AdaptiveStepper<M, 
         lanes.evaluations += one.splat(M::EVALUATIONS);
         let sound = attempt.poison.lt(one);
         let error = R::select(sound, attempt.ratio, one.splat(UNSOUND));
-        Attempt { accepted: !one.lt(error), sound, error }
+        Attempt { accepted: !one.lt(error), sound, error, from_edge: step.time.never() }
     }
 
     #[inline(always)]
@@ -170,7 +174,11 @@ impl<M: Embedded, R: Real, const N: usize> Stepper<R, N> for AdaptiveStepper<M, 
     #[inline(always)]
     fn advance(&mut self, proposal: &Proposal<R>, attempt: &Attempt<R>) -> R::Mask {
         let (accepted, rejected) = (attempt.accepted, !attempt.accepted);
-        let factor = M::CONTROLLER.factor(attempt.error, accepted, self.retry);
+        let mut factor = M::CONTROLLER.factor(attempt.error, accepted, self.retry);
+        let rough = attempt.from_edge & rejected;
+        if rough.any() {
+            factor = R::select(rough, factor_from_edge(attempt.error), factor);
+        }
         // a step that an arc's end has shortened does not shorten the steps of the next arc
         let shortened = proposal.lands & accepted & !factor.lt(factor.splat(M::CONTROLLER.growth));
         let least = R::select(shortened, self.length, R::select(accepted, factor.zero(), self.floor));
@@ -197,6 +205,17 @@ impl<M: Embedded, R: Real, const N: usize> Stepper<R, N> for AdaptiveStepper<M, 
         self.length = R::select(lanes, length, self.length);
         self.retry = self.retry & !lanes;
         self.cut = self.cut | lanes;
+    }
+
+    #[inline(always)]
+    fn pass_edges(&mut self, into: R::Mask, out_of: R::Mask) {
+        self.smooth = R::select(into, self.length, self.smooth);
+        self.length = R::select(out_of, self.length.larger(self.smooth), self.length);
+    }
+
+    #[inline(always)]
+    fn limit(&mut self, longest: R) {
+        self.length = self.length.smaller(longest);
     }
 
     #[inline(always)]

@@ -76,6 +76,13 @@ impl Controller {
     }
 }
 
+/// Factor on a step from an edge, such as that of a penumbra, whose error `ratio` is too large: f grows with the power
+/// 3/2 of time, the error with 5/2.
+#[inline(always)]
+pub fn factor_from_edge<R: Real>(ratio: R) -> R {
+    ratio.splat(0.8) * power(ratio, -0.4)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

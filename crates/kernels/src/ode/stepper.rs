@@ -63,6 +63,8 @@ pub struct Attempt<R: Real> {
     pub sound: R::Mask,
     /// Error in units of the tolerance, zero without an estimate.
     pub error: R,
+    /// True if f is not smooth at the start of the step.
+    pub from_edge: R::Mask,
 }
 
 /// Choice and execution of a method's steps in all lanes.
@@ -118,6 +120,14 @@ pub trait Stepper<R: Real, const N: usize> {
     /// After [`Stepper::advance`]: sets the next length, s, in `_lanes`; later steps resume that of the replaced step.
     #[inline(always)]
     fn cut(&mut self, _lanes: R::Mask, _length: R) {}
+
+    /// Steps have come `_into` lanes where f is not smooth, or out of them: there the former length is resumed.
+    #[inline(always)]
+    fn pass_edges(&mut self, _into: R::Mask, _out_of: R::Mask) {}
+
+    /// After [`Stepper::advance`]: limits the next length to `_longest`, s.
+    #[inline(always)]
+    fn limit(&mut self, _longest: R) {}
 
     /// Updates the derivative at the current time in the lanes `_renewed`, where branches have changed.
     #[inline(always)]

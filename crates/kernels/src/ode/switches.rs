@@ -47,6 +47,10 @@ const DOUBT: f64 = 0.1;
 /// Distance, as a fraction of the step, of the two times from which [`dip`] computes a slope.
 const BESIDE: f64 = 1e-3;
 
+/// Longest step towards an edge, where f is not smooth, as a share of the time to it: the share that a step from an edge
+/// gains on its distance.
+const TOWARDS_EDGE: f64 = 0.4;
+
 /// Pending switches, one run per lane.
 pub(super) struct Switches<R: Real> {
     /// Lanes that are to choose branches, and the delay, s.
@@ -63,6 +67,10 @@ pub(super) struct Switches<R: Real> {
     landed: R,
     /// Lower bound of the switch functions at the present time; zero if unknown.
     margin: R,
+    /// Lanes at an edge, from which f is not smooth; length of the step from the last one, and longest next step, s.
+    edge: R::Mask,
+    from_edge: R,
+    longest: R,
 }
 
 impl<R: Real> Switches<R> {
@@ -80,12 +88,16 @@ impl<R: Real> Switches<R> {
             landing: never,
             landed,
             margin: zero,
+            edge: never,
+            from_edge: zero.splat(f64::INFINITY),
+            longest: zero,
         }
     }
 
     #[inline(always)]
     pub(super) fn start_run(&mut self, lane: usize) {
         self.margin.set_lane(lane, 0.0);
+        self.from_edge.set_lane(lane, f64::INFINITY);
         self.start_arc(lane);
     }
 
@@ -97,6 +109,7 @@ impl<R: Real> Switches<R> {
         }
         self.ahead.set_lane(lane, 0.0);
         self.landing.set(lane, false);
+        self.edge.set(lane, false);
         self.cuts.set_lane(lane, 0.0);
     }
 
@@ -114,7 +127,11 @@ impl<R: Real> Switches<R> {
         let state = &lanes.now.state;
         let [slope, _] = stepper.slopes();
         let later = each!(zero, |n| R::select(passed, ahead.mul_add(slope[n], state[n]), state[n]));
+        let rough = runs.is_rough(zero);
         runs.choose_branches(self.pending, lanes.time + ahead, &later);
+        let [into, out_of] = [passed & !rough & runs.is_rough(zero), passed & rough & !runs.is_rough(zero)];
+        self.edge = self.edge | into;
+        stepper.pass_edges(into, out_of);
         if passed.any() {
             stepper.renew(&*runs, passed, lanes);
         }
@@ -135,9 +152,12 @@ impl<R: Real> Switches<R> {
         P: Stepper<R, N>,
     {
         let (zero, one) = (self.cuts.zero(), self.cuts.splat(1.0));
+        let rough = runs.is_rough(zero);
+        attempt.from_edge = self.edge;
+        self.longest = one.splat(f64::INFINITY);
         let reach = runs.sway(step.length, [&lanes.now.state, end]);
         let twice = reach + reach;
-        let near = attempt.accepted & !twice.lt(self.margin);
+        let near = attempt.accepted & (rough | !twice.lt(self.margin));
         let before = self.margin;
         self.margin = R::select(attempt.accepted, before - reach, before);
         if !near.any() {
@@ -165,6 +185,12 @@ impl<R: Real> Switches<R> {
         }
         self.margin = R::select(cut, before, self.margin);
         attempt.accepted = attempt.accepted & !cut;
+        self.from_edge = R::select(self.edge & attempt.accepted, step.length, self.from_edge);
+        self.edge = self.edge & !attempt.accepted;
+        // the time to the next switch, by the last change of the switch function
+        let share = one.splat(TOWARDS_EDGE) * (margin * (step.length / (before - margin)));
+        let towards = rough & attempt.accepted & margin.lt(before) & self.from_edge.lt(share);
+        self.longest = R::select(towards, share, self.longest);
         self.next = fraction * step.length;
         self.whole = R::select(cut & !self.landing, step.length, self.whole);
         self.cuts = R::select(attempt.accepted, zero, self.cuts + zero.indicator(cut));
@@ -177,6 +203,7 @@ impl<R: Real> Switches<R> {
         self.pending = ended;
         self.ahead = R::select(ended, self.whole * self.whole.splat(AHEAD), self.ahead.zero());
         self.landing = (self.landing & !attempt.accepted) | self.cut;
+        stepper.limit(self.longest);
         if self.cut.any() {
             stepper.cut(self.cut, self.next);
         }
