@@ -71,7 +71,7 @@ pub fn growth(scene: &Scene, table: &StateTable, times: &[f64], filled: usize) -
     let last = filled - 1;
     let (moments, axes) = principal_axes(scene.mass.inertia);
     let q_sb = quaternion_from_dcm(axes);
-    let effects = ChangingEffects::of(0.0, scene, Some(axes));
+    let mut effects = ChangingEffects::of(0.0, scene, Some(axes));
     if effects.is_empty() || times[last] <= 0.0 {
         return None;
     }
@@ -99,6 +99,8 @@ pub fn growth(scene: &Scene, table: &StateTable, times: &[f64], filled: usize) -
         for (wheel, spin) in scene.mass.wheels.iter().enumerate() {
             held = sum(held, scaled(spin.axial * table.column(StateField::WheelRates, wheel)[point], spin.axis));
         }
+        // the layer of the air is sought once
+        effects.choose_branches(true, &motion);
         // one loop, so that the long effects are inlined once
         let mut torques = [[0.0; 3]; 4];
         for (change, torque) in torques.iter_mut().enumerate() {
