@@ -239,7 +239,8 @@ fn simulate_shows_what_the_scene_calls_for() {
     assert!(!header.contains(&"q_es_w"), "{said}");
 }
 
-/// Law: an overconfident filter is named with its factor on screen, page and in the summary, and no other.
+/// Law: an overconfident filter is named with its factor on screen, page and in the summary, and no other; so is what
+/// it does not know.
 #[test]
 fn filters_that_do_not_know_their_errors_are_named() {
     for (name, bias, is_named) in [("biased", "20 arcsec", true), ("right", "0.01 arcsec", false)] {
@@ -256,6 +257,8 @@ fn filters_that_do_not_know_their_errors_are_named() {
         if is_named {
             let factor = "median error of attitude and gyro bias # sigma";
             assert!(median > 2.0, "{median}");
+            // the filter estimates the gyro's bias
+            assert!(notes[0].as_str().unwrap().ends_with("; no filter knows gyro scale, tracker bias"), "{notes:?}");
             let html = html.to_lowercase().replace('\u{a0}', " ");
             for said in [notes[0].as_str().unwrap(), &found.said, &html] {
                 let of = screen_numbers::numbers(said, factor);
