@@ -372,7 +372,7 @@ mod tests {
     fn keys_are_code() {
         for (said, html) in [
             ("write body.mass_kg.", "write <code>body.mass_kg</code>."),
-            ("environment.drag acts, e.g. in 0.3 s", "<code>environment.drag</code> acts, e.g. in 0.3 s"),
+            ("environment.drag acts, e.g. by 0.3", "<code>environment.drag</code> acts, e.g. by 0.3"),
             ("design \"latin_hypercube\"; or", "design &quot;<code>latin_hypercube</code>&quot;; or"),
             ("`a & b` in F_e", "<code>a &amp; b</code> in F_e"),
         ] {
