@@ -149,9 +149,9 @@ fn of_event(plan: &Plan, [outcome, runs]: [&str; 2], event: &Event, ranking: &Ra
     let named: Vec<String> = ranking.drivers().take(NAMED).filter_map(phrase).collect();
     if named.is_empty() {
         let of = event.of;
-        let verb = verb(plan, outcome, event, of.events);
-        let power = power_on_event(plan, ranking, of, &verb);
-        return format!("{} of {} runs {verb}; no input was found that explains which{power}", of.events, of.runs);
+        let [said, of_one] = [of.events, 1].map(|runs| verb(plan, outcome, event, runs));
+        let power = power_on_event(plan, ranking, of, &of_one);
+        return format!("{} of {} runs {said}; no input was found that explains which{power}", of.events, of.runs);
     }
     let mut said = named.join("; ");
     if let Some((again, _)) = said.match_indices(runs).nth(1) {
@@ -381,5 +381,20 @@ mod tests {
                 assert!(said(&inputs, [(None, true), (None, is_driver)]).ends_with(told));
             }
         }
+    }
+
+    /// Law: an event that no input explains has the effect that its runs would have shown, in words of one run.
+    #[test]
+    fn unexplained_events_have_a_smallest_effect() {
+        let event =
+            Event { occurs: Occurs::Worst(0.05), of: Occurrence { events: 20, runs: 400 }, has_few_values: false };
+        let named = input("first_one");
+        let inputs = vec![Ranked { input: &named, effect: None, share: None, is_driver: false }];
+        let ranking = Ranking { question: Question::Event(event), inputs };
+        // 0.5 + (1.960 + 1.282) sqrt(401/(12 20 380)) = 0.715
+        let told = "20 of 400 runs are among the worst 5%; no input was found that explains which; one that is larger \
+                    in a run that is among the worst 5% than in another with a chance of 72% is found in 90% of such \
+                    campaigns";
+        assert_eq!(sentence(&crate::findings::shipped::plan("spin_sweep"), "y", &ranking), told);
     }
 }
