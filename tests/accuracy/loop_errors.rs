@@ -69,6 +69,41 @@ fn loops_carry_their_errors() {
     assert!(100 * all_covered >= 95 * all, "{said}");
 }
 
+/// Law: where the nominal run rests and others tumble, the chosen method takes at most twice the evaluations of either.
+#[test]
+fn the_method_of_a_loop_is_chosen_for_its_fastest_runs() {
+    const CASES: [[&str; 3]; 6] = [
+        ["0.1 deg/s", "1e-6", "1.0"],
+        ["0.1 deg/s", "1e-12", "10.0"],
+        ["1 deg/s", "1e-9", "1.0"],
+        ["1 deg/s", "1e-12", "10.0"],
+        ["10 deg/s", "1e-9", "10.0"],
+        ["10 deg/s", "1e-12", "1.0"],
+    ];
+    for [rate, tolerance, period] in CASES {
+        let evaluations = |method| {
+            let mut text = campaign_text("detumble_magnetic");
+            for (from, to) in [
+                ("[\"3 deg/s\", \"-2 deg/s\", \"2 deg/s\"]", "[0.0, 0.0, 0.0]"),
+                ("1.5 deg/s", rate),
+                ("1e-10", tolerance),
+                ("period_s = 5.0", &format!("period_s = {period}")),
+                ("110 min", &format!("{} s", 30.0 * period.parse::<f64>().unwrap())),
+                ("\"auto\"", method),
+            ] {
+                assert!(text.contains(from));
+                text = text.replacen(from, to, 1);
+            }
+            let overrides = Overrides { samples: Some(16), ..Overrides::default() };
+            let found = rows(&Plan::from_text("c.toml", &text, overrides).unwrap());
+            found.column("evaluations").iter().sum::<f64>()
+        };
+        let [chosen, five, eight] = ["\"auto\"", "\"dormand_prince\"", "\"dop853\""].map(evaluations);
+        println!("{rate}, {tolerance}, {period} s: {chosen}, {five}, {eight}");
+        assert!(chosen <= 2.0 * five.min(eight), "{rate}, {tolerance}, {period} s: {chosen}, {five}, {eight}");
+    }
+}
+
 /// Thrusters that turn the body back and forth: a pulse more or less changes all later ones.
 #[test]
 fn parted_runs_are_judged_by_requirements() {

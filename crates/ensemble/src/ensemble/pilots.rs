@@ -9,7 +9,7 @@ use crate::campaign::{Plan, Requirement, SceneDraws};
 use crate::ensemble::event_finder::{self, EventFinder, RunEnd};
 use crate::ensemble::flights::{Judge, LawDraw, Means, Runs, end_of, nominal_attitude};
 use crate::ensemble::loop_errors::LoopErrors;
-use crate::ensemble::settings::Engines;
+use crate::ensemble::settings::{Engines, FIRST_DRAWN};
 use crate::ensemble::supervision::{Alone, Crew};
 use crate::ensemble::threads::unpoisoned;
 use crate::loops::callback::is_law_of;
@@ -28,9 +28,6 @@ use std::ops::{Range, RangeInclusive};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
-
-/// Number of drawn pilots.
-const DRAWN: u64 = 7;
 
 /// Steps of a pilot over those of a run, at most.
 const PATIENCE: u64 = 4;
@@ -105,7 +102,7 @@ impl Flown {
 pub fn measured(plan: &Plan, isa: Isa, wanted: [bool; 2], crew: &dyn Crew) -> LoopErrors {
     let of = |samples| Pilots::of(plan, isa, samples, crew).error(None);
     let [nominal, drawn] = wanted.map(|wanted| wanted && plan.law.is_some());
-    LoopErrors { nominal: nominal.then(|| of(0..=0)), drawn: drawn.then(|| of(1..=DRAWN)) }
+    LoopErrors { nominal: nominal.then(|| of(0..=0)), drawn: drawn.then(|| of(1..=FIRST_DRAWN)) }
 }
 
 /// Samples with their twins.
