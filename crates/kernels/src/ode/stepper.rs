@@ -63,6 +63,8 @@ pub struct Attempt<R: Real> {
     pub sound: R::Mask,
     /// Error in units of the tolerance, zero without an estimate.
     pub error: R,
+    /// [`super::embedded::PairAttempt::rough`].
+    pub rough: R,
 }
 
 /// Choice and execution of a method's steps in all lanes.
