@@ -8,7 +8,7 @@ use spindrift::ensemble::audit::AuditValue;
 use std::fmt::Write as _;
 
 /// A shipped campaign, and what is changed.
-const LOOPS: [(&str, &[(&str, &str)]); 12] = [
+const LOOPS: [(&str, &[(&str, &str)]); 13] = [
     ("slew_closed", &[]),
     ("slew_closed", &[("1e-12", "1e-6"), ("\"auto\"", "\"dormand_prince\"")]),
     ("slew_closed", &[("\"auto\"\ntolerance = 1e-12", "\"runge_kutta_4\"\nstep_s = 0.05")]),
@@ -21,6 +21,7 @@ const LOOPS: [(&str, &[(&str, &str)]); 12] = [
     ("detumble_magnetic", &[]),
     ("detumble_magnetic", &[("1e-10", "1e-6")]),
     ("detumble_magnetic", &[("1e-10", "1e-8"), ("period_s = 5.0", "period_s = 10.0")]),
+    ("cubesat_detumble", &[("284 min", "20 min")]),
 ];
 
 const SAMPLES: u64 = 40;
@@ -49,7 +50,6 @@ fn audited(plan: &Plan) -> Vec<(RowBits, [f64; 2])> {
 #[test]
 fn loops_carry_their_errors() {
     let mut said = String::new();
-    let (mut all, mut all_covered) = (0, 0);
     for of in LOOPS {
         let found = audited(&plan_of(of, SAMPLES));
         assert!(audited(&plan_of(of, 5)) == found[..5], "{of:?}: rows are those of the longer campaign");
@@ -62,11 +62,9 @@ fn loops_carry_their_errors() {
         ratios.sort_by(f64::total_cmp);
         let median = ratios[ratios.len() / 2];
         let _ = writeln!(said, "{covered} of {}, {median:.3e}: {of:?}", found.len());
-        assert!(10 * covered >= 9 * found.len() && median <= 100.0, "{said}");
-        (all, all_covered) = (all + found.len(), all_covered + covered);
+        assert!(100 * covered >= 95 * found.len() && median <= 100.0, "{said}");
     }
-    println!("{said}{all_covered} of {all}");
-    assert!(100 * all_covered >= 95 * all, "{said}");
+    println!("{said}");
 }
 
 /// Law: where the nominal run rests and others tumble, the chosen method takes at most twice the evaluations of either.

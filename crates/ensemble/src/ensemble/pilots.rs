@@ -92,7 +92,7 @@ impl Flown {
 
     /// A run that reached its end, and its twin.
     fn pilot(&self, twin: &Flown, grid: &Grid) -> Option<Pilot> {
-        let made = || self.local.total(rate_scale_of(&self.table, grid.times(), self.filled));
+        let made = || self.local.inherited(rate_scale_of(&self.table, grid.times(), self.filled));
         let is_whole = self.status == Status::Done && self.filled > 0;
         is_whole.then(|| Pilot { error: self.error(twin, grid.times()).state(), made: made() })
     }
