@@ -8,7 +8,7 @@ use spindrift::ensemble::audit::AuditValue;
 use std::fmt::Write as _;
 
 /// A shipped campaign, and what is changed.
-const LOOPS: [(&str, &[(&str, &str)]); 13] = [
+const LOOPS: [(&str, &[(&str, &str)]); 15] = [
     ("slew_closed", &[]),
     ("slew_closed", &[("1e-12", "1e-6"), ("\"auto\"", "\"dormand_prince\"")]),
     ("slew_closed", &[("\"auto\"\ntolerance = 1e-12", "\"runge_kutta_4\"\nstep_s = 0.05")]),
@@ -22,6 +22,21 @@ const LOOPS: [(&str, &[(&str, &str)]); 13] = [
     ("detumble_magnetic", &[("1e-10", "1e-6")]),
     ("detumble_magnetic", &[("1e-10", "1e-8"), ("period_s = 5.0", "period_s = 10.0")]),
     ("cubesat_detumble", &[("284 min", "20 min")]),
+    // some runs have more momentum than their wheels can take, and tumble on
+    (
+        "cubesat_nadir",
+        &[("1e-9", "1e-6"), ("std = \"0.05 deg/s\"", "std = \"4 deg/s\""), ("20 min", "6 min"), ("5 min", "1 min")],
+    ),
+    (
+        "slew_closed",
+        &[
+            (
+                "law = \"quaternion_feedback\"\nbandwidth_rad_s = 0.15\ndamping = 0.9",
+                "law = \"mrp_feedback\"\nstiffness_n_m = 0.8\ndamping_n_m_s = 2.2",
+            ),
+            ("estimator = \"mekf\"", "estimator = \"perfect\""),
+        ],
+    ),
 ];
 
 const SAMPLES: u64 = 40;
