@@ -3,7 +3,7 @@
 //!
 //! Pilots are the nominal sample, which is judged by itself, and the first drawn samples, which judge all others. They
 //! depend on the plan alone, not on its number of rows. A pilot and its twin share noise, filter, limits and ticks, but
-//! no step: the twin's arcs are halved and its tolerance is a thousandth.
+//! no step.
 
 use crate::campaign::{Plan, Requirement, SceneDraws};
 use crate::ensemble::event_finder::{self, EventFinder, RunEnd};
@@ -91,10 +91,10 @@ impl Flown {
     }
 
     /// A run that reached its end, and its twin.
-    fn pilot(&self, twin: &Flown, grid: &Grid) -> Option<Pilot> {
-        let made = || self.local.inherited(rate_scale_of(&self.table, grid.times(), self.filled));
+    fn pilot(&self, twin: &Flown, times: &[f64]) -> Option<Pilot> {
+        let made = || self.local.inherited(rate_scale_of(&self.table, times, self.filled));
         let is_whole = self.status == Status::Done && self.filled > 0;
-        is_whole.then(|| Pilot { error: self.error(twin, grid.times()).state(), made: made() })
+        is_whole.then(|| Pilot { error: self.error(twin, times).state(), made: made() })
     }
 }
 
@@ -184,7 +184,7 @@ impl<'p> Pilots<'p> {
             None => self.fly(self.plans()[0]),
         };
         let pairs = own.iter().zip(&self.twins).filter_map(|(own, twin)| own.as_ref().zip(twin.as_ref()));
-        let mut found = LoopError::of_pilots(pairs.filter_map(|(own, twin)| own.pilot(twin, &self.plan.grid)));
+        let mut found = LoopError::of_pilots(pairs.filter_map(|(own, twin)| own.pilot(twin, self.plan.grid.times())));
         if found.parts {
             let agree = || outcomes_agree(self.plans(), self.isa, self.runs(0..self.scenes.len()));
             found.outcomes_agree = catch_unwind(AssertUnwindSafe(agree)).unwrap_or(false);

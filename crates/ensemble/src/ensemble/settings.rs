@@ -55,14 +55,14 @@ pub fn propagator(plan: &Plan, grid: Grid, fields: StateFields) -> PropagationSe
     }
 }
 
-/// Number of the first drawn samples that stand for all: a function of the plan alone.
+/// Number of first drawn samples, which stand for all.
 pub const FIRST_DRAWN: u64 = 7;
 
-/// Largest initial rate of the nominal sample and the first drawn ones, rad/s.
+/// Largest initial rate of these and the nominal one, rad/s.
 fn fastest(plan: &Plan) -> f64 {
     let mut draws = SceneDraws::new(plan);
-    let scenes = (0..=FIRST_DRAWN).filter_map(|sample| draws.scene(SampleId(sample)).ok());
-    scenes.map(|scene| norm(scene.initial.omega_se_s)).fold(0.0, f64::max)
+    let rate = |sample| draws.scene(SampleId(sample)).map_or(0.0, |scene| norm(scene.initial.omega_se_s));
+    (0..=FIRST_DRAWN).map(rate).fold(0.0, f64::max)
 }
 
 pub fn nominal(plan: &Plan) -> Scene {

@@ -3,8 +3,8 @@
 //! A loop forgets what the integrator did wrong, at a pace that depends on plant, law, filter and limits of actuators
 //! together. Pilots measure it: runs of the campaign that are flown twice, the second time in shorter arcs and at a
 //! tighter tolerance. The difference of both is the error of the first, of any cause, and over its local errors
-//! ([`LocalErrors::inherited`]) it says what the loop makes of these. A mean of the pilots judges other runs, since where
-//! a pulse or a wheel that stops makes one error a hundred times that of the others, the largest would judge all by it.
+//! ([`LocalErrors::inherited`]) it says what the loop makes of these. A mean of the pilots judges other runs: where a
+//! pulse or a wheel that stops makes one error a hundred times that of the others, the largest would judge all by it.
 //! Pilots whose local errors are nearest to the run's own have the largest weights: where some runs settle and others
 //! tumble to the end, both their local errors and what the loop makes of them differ by powers of ten.
 

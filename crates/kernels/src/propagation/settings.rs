@@ -60,8 +60,8 @@ impl PropagationSettings {
     }
 
     /// Settings for runs that turn by at most `turn` rad in an arc: `written`, if it is [`Method::Auto`], becomes a
-    /// method of order five under changing effects if the fifth power of `turn` is below the tolerance: one of its steps
-    /// crosses the arc, with a fraction of the tolerance as error.
+    /// method of order five under changing effects if the fifth power of `turn` is below the tolerance: one of its
+    /// steps crosses the arc, with a fraction of the tolerance as error.
     #[must_use]
     pub fn in_periods(self, written: Method, turn: f64) -> Self {
         let is_short = written == Method::Auto

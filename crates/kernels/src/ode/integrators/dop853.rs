@@ -81,8 +81,8 @@ impl Embedded for Dop853 {
         refined.smaller(longest.splat(100.0) * guess).smaller(longest)
     }
 
-    /// The error combines the embedded solutions of order 5 and 3: e5^2 / sqrt(e5^2 + 0.01 e3^2) (section II.10). Where f is
-    /// not smooth, a large and smooth e3 would hide e5.
+    /// The error combines the embedded solutions of order 5 and 3: e5^2 / sqrt(e5^2 + 0.01 e3^2) (section II.10). Where
+    /// f is not smooth, a large and smooth e3 would hide e5.
     #[inline(always)]
     fn attempt<R: Real, Q: System<R, N>, const N: usize>(
         system: &Q,
