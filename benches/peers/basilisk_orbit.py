@@ -16,13 +16,13 @@ The exit code is 1 if a difference is above --limit: attitude (rad), rates, whee
 
 import argparse
 import pathlib
-import resource
 import sys
 
 import Basilisk
+import cpu_time
 import numpy as np
 import pyarrow.parquet as pq
-from basilisk import difference, run
+from basilisk import difference
 from basilisk_environment import Case, basilisk_run, extrapolated, spindrift_states
 from Basilisk.architecture import bskLogging, messaging, sysModel
 from Basilisk.fswAlgorithms import (
@@ -178,26 +178,7 @@ def theirs(case, step, moving=True):
 
 def marginal(options, file, folder):
     """CPU seconds of a further run of a campaign: between one and two times --campaign samples."""
-    spent = []
-    for samples in (options.campaign, 2 * options.campaign):
-        before = resource.getrusage(resource.RUSAGE_CHILDREN)
-        run(
-            [
-                options.spindrift,
-                "campaign",
-                file,
-                "--samples",
-                str(samples),
-                "--threads",
-                "1",
-                "--no-report",
-                "--overwrite",
-                "--out",
-                folder / "rows",
-            ]
-        )
-        after = resource.getrusage(resource.RUSAGE_CHILDREN)
-        spent.append(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
+    spent = [cpu_time.campaign(options.spindrift, file, folder, factor * options.campaign) for factor in (1, 2)]
     return (spent[1] - spent[0]) / options.campaign
 
 

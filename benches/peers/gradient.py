@@ -12,11 +12,11 @@ The errors are those of the attitude against heyoka in 80 bits, median and large
 import argparse
 import itertools
 import pathlib
-import resource
 import subprocess
 import tempfile
 import time
 
+import cpu_time
 import heyoka as hy
 import numpy as np
 import pyarrow.parquet as pq
@@ -89,20 +89,7 @@ def main():
         file.write_text(text)
 
         def campaign(samples):
-            before = resource.getrusage(resource.RUSAGE_CHILDREN)
-            words = [
-                "--samples",
-                str(samples),
-                "--threads",
-                "1",
-                "--no-report",
-                "--overwrite",
-                "--out",
-                folder / "rows",
-            ]
-            subprocess.run([options.spindrift, "campaign", file, *words], check=False, capture_output=True)
-            after = resource.getrusage(resource.RUSAGE_CHILDREN)
-            return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+            return cpu_time.campaign(options.spindrift, file, folder, samples)
 
         def precision():
             words = ["--samples", "64", "--repeats", "3", "--methods", "auto", "--tolerances", str(TOLERANCE)]

@@ -68,6 +68,22 @@ fn the_environment_acts_beside_a_law() {
     }
 }
 
+/// Each of the `scenes` flown alone under its `law`, which has the bits of all flown together.
+fn alone_and_together<L: ActuationLaw>(
+    settings: &PropagationSettings,
+    scenes: &[Scene],
+    law: &dyn Fn(usize) -> L,
+) -> Vec<Flight> {
+    let alone = (0..scenes.len()).map(|k| fly_under(&mut vec![law(k)], Isa::best(), settings, &scenes[k..=k]));
+    let alone: Vec<Flight> = alone.map(|mut flights| flights.remove(0)).collect();
+    for isa in Isa::available() {
+        let mut laws: Vec<_> = (0..scenes.len()).map(law).collect();
+        let together = fly_under(&mut laws, isa, settings, scenes);
+        assert!(bits(&together) == bits(&alone), "{} on {}", settings.method.name(), isa.name());
+    }
+    alone
+}
+
 #[test]
 fn bits_of_brief_arcs_are_a_run_s_own() {
     let mut scenes = mixed(13, false, HORIZON);
@@ -86,13 +102,7 @@ fn bits_of_brief_arcs_are_a_run_s_own() {
     };
     for (method, control) in METHODS.into_iter().filter(|(method, _)| matches!(method, Method::Auto | Method::Taylor)) {
         let settings = settings(method, control, &scenes);
-        let alone = (0..scenes.len()).map(|k| fly_under(&mut vec![single(k)], Isa::best(), &settings, &scenes[k..=k]));
-        let alone: Vec<Flight> = alone.map(|mut flights| flights.remove(0)).collect();
-        for isa in Isa::available() {
-            let mut laws: Vec<_> = (0..scenes.len()).map(single).collect();
-            let together = fly_under(&mut laws, isa, &settings, &scenes);
-            assert!(bits(&together) == bits(&alone), "{} on {}", method.name(), isa.name());
-        }
+        let alone = alone_and_together(&settings, &scenes, &single);
         let records: Vec<_> = alone.iter().map(|flight| flight.arcs.clone()).collect();
         assert!(records.iter().any(|record| record.len() > 600), "{} arcs", records[2].len());
         let mut replayed = scenes.clone();
@@ -129,13 +139,7 @@ fn short_arcs_read_series_along_the_orbit() {
         }
         let settings = PropagationSettings::new(method, control, grid.clone(), everything(method), &scenes[0])
             .with_feedback(Actuated::ALL);
-        let alone = (0..scenes.len()).map(|k| fly_under(&mut vec![single(k)], Isa::best(), &settings, &scenes[k..=k]));
-        let alone: Vec<Flight> = alone.map(|mut flights| flights.remove(0)).collect();
-        for isa in Isa::available() {
-            let mut laws: Vec<_> = (0..scenes.len()).map(single).collect();
-            let together = fly_under(&mut laws, isa, &settings, &scenes);
-            assert!(bits(&together) == bits(&alone), "{} on {}", method.name(), isa.name());
-        }
+        let alone = alone_and_together(&settings, &scenes, &single);
         for (k, (own, free)) in alone.iter().zip(propagate(method, control, &grid, &scenes)).enumerate() {
             for field in [StateField::Attitude, StateField::Rate] {
                 let off = relative_field(&own.run.table, &free.table, field, 28);

@@ -10,7 +10,7 @@ use spindrift::{
         drivers::{Question, rankings},
         sensitivity::Prepared,
     },
-    findings::{drivers as drivers_text, names},
+    findings::{driver_sentence::sentence, names},
     math::normal::quantile,
     statistics::binomial,
 };
@@ -110,7 +110,7 @@ fn count(structure: &Structure, design: &str, runs: u64, campaigns: u64, seed: u
             // of a yes or no, and of a limit, the shares are those of the event
             let is_event = structure.limit.is_some() || is_yes_or_no(&y);
             let is_of_truth = is_event == matches!(ranking.question, Question::Event(_));
-            let said = drivers_text::sentence(&plan, OUTCOME, ranking);
+            let said = sentence(&plan, OUTCOME, ranking);
             let mut named = ranking
                 .drivers()
                 .take(2)

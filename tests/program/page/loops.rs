@@ -239,7 +239,8 @@ fn simulate_shows_what_the_scene_calls_for() {
     assert!(!header.contains(&"q_es_w"), "{said}");
 }
 
-/// Law: an overconfident filter is named with its factor on screen, page and in the summary, and no other.
+/// Law: an overconfident filter is named with its factor on screen, page and in the summary, and no other; so is what
+/// it does not know.
 #[test]
 fn filters_that_do_not_know_their_errors_are_named() {
     for (name, bias, is_named) in [("biased", "20 arcsec", true), ("right", "0.01 arcsec", false)] {
@@ -249,13 +250,15 @@ fn filters_that_do_not_know_their_errors_are_named() {
         let median = numbers::quantile(squares, 0.5);
         let summary = found.scratch.summary("r");
         let notes = summary["notes"].as_array().unwrap();
-        assert_eq!(notes.len(), usize::from(is_named), "{notes:?}, a median of {median}");
+        assert_eq!(notes.len(), if is_named { 2 } else { 0 }, "{notes:?}, a median of {median}");
         let html = found.scratch.text("r/report.html");
         let shown = [found.said.contains("overconfident"), html.contains("overconfident")];
         assert_eq!(shown, [is_named; 2], "{}", found.said);
         if is_named {
             let factor = "median error of attitude and gyro bias # sigma";
             assert!(median > 2.0, "{median}");
+            // the filter estimates the gyro's bias
+            assert_eq!(notes[1], "dispersed, and known to no filter: gyro scale, tracker bias");
             let html = html.to_lowercase().replace('\u{a0}', " ");
             for said in [notes[0].as_str().unwrap(), &found.said, &html] {
                 let of = screen_numbers::numbers(said, factor);

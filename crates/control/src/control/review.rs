@@ -53,13 +53,14 @@ fn unknown_effects(scene: &Scene) -> Option<String> {
         other => !matches!(other.form(), Form::Translation | Form::Force),
     };
     let unknown: Vec<&str> = ForceModel::of(scene).effects().filter(is_unknown).map(Effect::key).collect();
-    (!unknown.is_empty()).then(|| {
-        let word = if unknown.len() == 1 { "it acts" } else { "they act" };
-        format!(
-            "control: the filters and laws of the loop do not model {}: {word} on the spacecraft as a disturbance",
-            unknown.join(" and ")
-        )
-    })
+    let (last, others) = unknown.split_last()?;
+    let (listed, word) = match others {
+        [] => ((*last).to_owned(), "it acts"),
+        _ => (format!("{} and {last}", others.join(", ")), "they act"),
+    };
+    Some(format!(
+        "control: the filters and laws of the loop do not model {listed}: {word} on the spacecraft as a disturbance"
+    ))
 }
 
 /// Transfers about an oblate body, which guidance takes for a point mass.

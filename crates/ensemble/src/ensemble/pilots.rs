@@ -3,13 +3,13 @@
 //!
 //! Pilots are the nominal sample, which is judged by itself, and the first drawn samples, which judge all others. They
 //! depend on the plan alone, not on its number of rows. A pilot and its twin share noise, filter, limits and ticks, but
-//! no step: the twin's arcs are halved and its tolerance is a thousandth.
+//! no step.
 
 use crate::campaign::{Plan, Requirement, SceneDraws};
 use crate::ensemble::event_finder::{self, EventFinder, RunEnd};
 use crate::ensemble::flights::{Judge, LawDraw, Means, Runs, end_of, nominal_attitude};
 use crate::ensemble::loop_errors::LoopErrors;
-use crate::ensemble::settings::Engines;
+use crate::ensemble::settings::{Engines, FIRST_DRAWN};
 use crate::ensemble::supervision::{Alone, Crew};
 use crate::ensemble::threads::unpoisoned;
 use crate::loops::callback::is_law_of;
@@ -28,9 +28,6 @@ use std::ops::{Range, RangeInclusive};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
-
-/// Number of drawn pilots.
-const DRAWN: u64 = 7;
 
 /// Steps of a pilot over those of a run, at most.
 const PATIENCE: u64 = 4;
@@ -94,10 +91,10 @@ impl Flown {
     }
 
     /// A run that reached its end, and its twin.
-    fn pilot(&self, twin: &Flown, grid: &Grid) -> Option<Pilot> {
-        let made = || self.local.total(rate_scale_of(&self.table, grid.times(), self.filled));
+    fn pilot(&self, twin: &Flown, times: &[f64]) -> Option<Pilot> {
+        let made = || self.local.inherited(rate_scale_of(&self.table, times, self.filled));
         let is_whole = self.status == Status::Done && self.filled > 0;
-        is_whole.then(|| Pilot { error: self.error(twin, grid.times()).state(), made: made() })
+        is_whole.then(|| Pilot { error: self.error(twin, times).state(), made: made() })
     }
 }
 
@@ -105,7 +102,7 @@ impl Flown {
 pub fn measured(plan: &Plan, isa: Isa, wanted: [bool; 2], crew: &dyn Crew) -> LoopErrors {
     let of = |samples| Pilots::of(plan, isa, samples, crew).error(None);
     let [nominal, drawn] = wanted.map(|wanted| wanted && plan.law.is_some());
-    LoopErrors { nominal: nominal.then(|| of(0..=0)), drawn: drawn.then(|| of(1..=DRAWN)) }
+    LoopErrors { nominal: nominal.then(|| of(0..=0)), drawn: drawn.then(|| of(1..=FIRST_DRAWN)) }
 }
 
 /// Samples with their twins.
@@ -187,7 +184,7 @@ impl<'p> Pilots<'p> {
             None => self.fly(self.plans()[0]),
         };
         let pairs = own.iter().zip(&self.twins).filter_map(|(own, twin)| own.as_ref().zip(twin.as_ref()));
-        let mut found = LoopError::of_pilots(pairs.filter_map(|(own, twin)| own.pilot(twin, &self.plan.grid)));
+        let mut found = LoopError::of_pilots(pairs.filter_map(|(own, twin)| own.pilot(twin, self.plan.grid.times())));
         if found.parts {
             let agree = || outcomes_agree(self.plans(), self.isa, self.runs(0..self.scenes.len()));
             found.outcomes_agree = catch_unwind(AssertUnwindSafe(agree)).unwrap_or(false);

@@ -1,11 +1,13 @@
 //! Engine settings of a plan ([`propagator`]) and its nominal scene ([`nominal()`]).
 
-use crate::campaign::Plan;
+use crate::campaign::{Plan, SceneDraws};
 use crate::ensemble::surface::leaves_orbit;
 use crate::math::Isa;
+use crate::math::vector::norm;
 use crate::ode::Control;
 use crate::propagation::{Engine, PropagationSettings};
 use crate::run::{Grid, StateField, StateFields};
+use crate::sampling::SampleId;
 use crate::scene::Scene;
 
 pub type EngineMaker = fn(&PropagationSettings, Isa) -> Box<dyn Engine>;
@@ -46,10 +48,21 @@ pub fn propagator(plan: &Plan, grid: Grid, fields: StateFields) -> PropagationSe
     match &plan.law {
         Some(law) => {
             let period = law.spec().map_or(f64::INFINITY, |spec| spec.period);
-            settings(fields.union(SEEN_BY_LAWS)).with_feedback(law.commands).in_periods(plan.method, period, &nominal)
+            let settings = settings(fields.union(SEEN_BY_LAWS)).with_feedback(law.commands);
+            settings.in_periods(plan.method, period * fastest(plan))
         }
         None => settings(fields),
     }
+}
+
+/// Number of first drawn samples, which stand for all.
+pub const FIRST_DRAWN: u64 = 7;
+
+/// Largest initial rate of these and the nominal one, rad/s.
+fn fastest(plan: &Plan) -> f64 {
+    let mut draws = SceneDraws::new(plan);
+    let rate = |sample| draws.scene(SampleId(sample)).map_or(0.0, |scene| norm(scene.initial.omega_se_s));
+    (0..=FIRST_DRAWN).map(rate).fold(0.0, f64::max)
 }
 
 pub fn nominal(plan: &Plan) -> Scene {

@@ -135,7 +135,7 @@ impl<M: Embedded, R: Real, const N: usize> Stepper<R, N> for AdaptiveStepper<M, 
         lanes.evaluations += one.splat(M::EVALUATIONS);
         let sound = attempt.poison.lt(one);
         let error = R::select(sound, attempt.ratio, one.splat(UNSOUND));
-        Attempt { accepted: !one.lt(error), sound, error, from_edge: step.time.never() }
+        Attempt { accepted: !one.lt(error), sound, error, rough: attempt.rough, from_edge: step.time.never() }
     }
 
     #[inline(always)]

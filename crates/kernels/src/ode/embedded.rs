@@ -10,6 +10,8 @@ use crate::math::real::Real;
 pub struct PairAttempt<R> {
     /// Norm of the error in units of the tolerance.
     pub ratio: R,
+    /// The same without what is gained where f is smooth.
+    pub rough: R,
     /// Zero if everything is finite, else NaN.
     pub poison: R,
 }

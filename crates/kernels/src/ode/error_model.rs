@@ -80,6 +80,7 @@ mod tests {
         let attempt = M::attempt(&Edge, step, &start, tolerance, &mut stages, &mut end);
         let (ratio, stated) = ((end.state[0] - 0.4).abs() / attempt.ratio, M::ERRORS.from_edge);
         near(ratio, stated, 1e-2);
+        near(attempt.rough, attempt.ratio, 1e-2);
     }
 
     /// Law: the integral of t^(3/2) over (0, 1) is 2/5.

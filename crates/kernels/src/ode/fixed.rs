@@ -136,7 +136,7 @@ impl<M: FixedStep, R: Real, const N: usize> Stepper<R, N> for FixedStepper<M, R,
         let advance = M::step(system, step, &lanes.now, first, self.tolerance, &mut self.memory, end);
         lanes.evaluations += advance.evaluations;
         let sound = advance.poison.lt(one);
-        Attempt { accepted: sound, sound, error: one.zero(), from_edge: one.never() }
+        Attempt { accepted: sound, sound, error: one.zero(), rough: one.zero(), from_edge: one.never() }
     }
 
     #[inline(always)]

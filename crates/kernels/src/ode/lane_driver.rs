@@ -49,11 +49,13 @@ where
         }
         lanes.accepted += zero.indicator(attempt.accepted);
         lanes.rejected += zero.indicator(!attempt.accepted);
-        let mut counted = R::select(attempt.accepted, attempt.error, zero);
+        let mut counted = attempt.error;
         if has_switches {
-            counted = R::select(runs.is_rough(zero), counted * zero.splat(rough_weight), counted);
+            // an arc of a loop, and not the light, sets the length of a step
+            let rough = if runs.continues() { attempt.rough } else { counted };
+            counted = R::select(runs.is_rough(zero), rough * zero.splat(rough_weight), counted);
         }
-        lanes.error_sum += counted;
+        lanes.error_sum += R::select(attempt.accepted, counted, zero);
 
         let limit = R::select(attempt.accepted, step.end, zero.splat(f64::NEG_INFINITY));
         if (!limit.lt(lanes.next)).any() {

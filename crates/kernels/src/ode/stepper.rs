@@ -63,6 +63,8 @@ pub struct Attempt<R: Real> {
     pub sound: R::Mask,
     /// Error in units of the tolerance, zero without an estimate.
     pub error: R,
+    /// [`super::embedded::PairAttempt::rough`].
+    pub rough: R,
     /// True if f is not smooth at the start of the step.
     pub from_edge: R::Mask,
 }

@@ -14,14 +14,9 @@ pub fn local_errors(model: &ErrorModel, tolerance: f64, completion: &EndedRun) -
         ErrorModel::Remainder(_) => rounding,
         ErrorModel::Estimated(errors) => {
             let error = errors.gain(tolerance) * tolerance * completion.error_sum;
-            LocalErrors {
-                truncation: error,
-                // if no step comes near the tolerance, no point inside a step does
-                attitude: rounding.attitude
-                    + error
-                    + errors.dense * tolerance * (DENSE * completion.error_sum).min(1.0),
-                ..rounding
-            }
+            // if no step comes near the tolerance, no point inside a step does
+            let dense = errors.dense * tolerance * (DENSE * completion.error_sum).min(1.0);
+            LocalErrors { truncation: error, attitude: rounding.attitude + error + dense, dense, ..rounding }
         }
     }
 }

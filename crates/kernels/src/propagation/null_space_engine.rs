@@ -84,7 +84,8 @@ fn rates(table: &StateTable, field: StateField) -> impl Iterator<Item = [f64; 3]
 fn of_debris(errors: &LocalErrors, table: &StateTable) -> LocalErrors {
     let ratio = fastest(rates(table, StateField::DebrisRate)) / fastest(rates(table, StateField::Rate));
     let share = if ratio < 1.0 { (0..ORDER).fold(1.0, |power, _| power * ratio) } else { 1.0 };
-    let errors = LocalErrors { truncation: share * errors.truncation, attitude: share * errors.attitude, ..*errors };
+    let [truncation, attitude, dense] = [errors.truncation, errors.attitude, errors.dense].map(|error| share * error);
+    let errors = LocalErrors { truncation, attitude, dense, ..*errors };
     in_units(errors, rates(table, StateField::DebrisRate), 0.0)
 }
 
@@ -92,8 +93,8 @@ fn of_debris(errors: &LocalErrors, table: &StateTable) -> LocalErrors {
 /// attitude's is at most proportional to the body's turn, below a radian.
 fn of_body(errors: &LocalErrors, table: &StateTable, duration: f64) -> LocalErrors {
     let share = (fastest(rates(table, StateField::Rate)) * duration).min(1.0);
-    let attitude = (share * errors.attitude).max(errors.rounding);
-    in_units(LocalErrors { attitude, ..*errors }, rates(table, StateField::Rate), 0.0)
+    let (attitude, dense) = ((share * errors.attitude).max(errors.rounding), share * errors.dense);
+    in_units(LocalErrors { attitude, dense, ..*errors }, rates(table, StateField::Rate), 0.0)
 }
 
 impl<S: Simd, const W: usize, const N: usize> Engine for NullSpaceEngine<S, W, N> {

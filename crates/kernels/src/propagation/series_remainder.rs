@@ -54,8 +54,8 @@ impl Remainders {
         }
         let term = libm::pow(step, self.method.order as f64 + 1.0);
         let all = self.method.factor * term * steps as f64 / count;
-        let LocalErrors { rounding, attitude, .. } = rounding_of_turns(steps, largest * outcome.time);
-        LocalErrors { truncation: all * changing, rounding, feedback: 0.0, attitude: attitude + all * turning }
+        let errors = rounding_of_turns(steps, largest * outcome.time);
+        LocalErrors { truncation: all * changing, attitude: errors.attitude + all * turning, ..errors }
     }
 
     /// Expands the motion through point `point` of `states` at `time`, s; thrust does not bend the orbit within a step.

@@ -5,7 +5,6 @@ use crate::dynamics::actuation::Laws;
 use crate::dynamics::effects::{Effect, ForceModel};
 use crate::dynamics::gyrostat::completion::components;
 use crate::dynamics::gyrostat::{WITH_ANGLES, WITH_THRUST};
-use crate::math::vector::norm;
 use crate::ode::{Control, Integrator};
 use crate::run::{Grid, StateField, StateFields};
 use crate::scene::{Actuated, Scene};
@@ -60,12 +59,11 @@ impl PropagationSettings {
         PropagationSettings { method, thrust, motors: self.motors || commands.motors, feedback: true, ..self }
     }
 
-    /// Settings for runs whose arcs are at most `period` seconds, if `nominal` turns as fast as any: `written`, if it
-    /// is [`Method::Auto`], becomes a method of order five under changing effects if the fifth power of the turn in an
-    /// arc, rad, is below the tolerance: one of its steps crosses the arc, with a fraction of the tolerance as error.
+    /// Settings for runs that turn by at most `turn` rad in an arc: `written`, if it is [`Method::Auto`], becomes a
+    /// method of order five under changing effects if the fifth power of `turn` is below the tolerance: one of its
+    /// steps crosses the arc, with a fraction of the tolerance as error.
     #[must_use]
-    pub fn in_periods(self, written: Method, period: f64, nominal: &Scene) -> Self {
-        let turn = norm(nominal.initial.omega_se_s) * period;
+    pub fn in_periods(self, written: Method, turn: f64) -> Self {
         let is_short = written == Method::Auto
             && self.changes_within_arcs()
             && turn < libm::pow(self.control.tolerance.relative, 0.2);

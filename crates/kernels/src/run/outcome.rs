@@ -111,14 +111,17 @@ pub struct LocalErrors {
     pub feedback: f64,
     /// Error of the attitude alone, rad: truncation, rounding and dense output.
     pub attitude: f64,
+    /// That of dense output alone, which later steps do not inherit.
+    pub dense: f64,
 }
 
 impl LocalErrors {
     /// No errors.
-    pub const NONE: LocalErrors = LocalErrors { truncation: 0.0, rounding: 0.0, feedback: 0.0, attitude: 0.0 };
+    pub const NONE: LocalErrors =
+        LocalErrors { truncation: 0.0, rounding: 0.0, feedback: 0.0, attitude: 0.0, dense: 0.0 };
 
-    /// Their sum, with errors of omega relative to `scale`, rad/s ([`rate_scale`]).
-    pub fn total(&self, scale: f64) -> f64 {
-        (self.truncation + self.feedback) / scale + self.rounding + self.attitude
+    /// Sum of those that later steps inherit, with errors of omega relative to `scale`, rad/s ([`rate_scale`]).
+    pub fn inherited(&self, scale: f64) -> f64 {
+        (self.truncation + self.feedback) / scale + self.rounding + (self.attitude - self.dense)
     }
 }

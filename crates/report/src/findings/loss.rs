@@ -165,14 +165,27 @@ const MOST_NEES: f64 = 2.0;
 
 /// Filters whose errors exceed their covariance (Y. Bar-Shalom, X. R. Li & T. Kirubarajan, Estimation with Applications
 /// to Tracking and Navigation, 2001, section 5.4).
-pub(super) fn notes(analysed: &Analysed) -> Vec<Finding> {
+pub(super) fn notes(plan: &Plan, analysed: &Analysed) -> Vec<Finding> {
     let of_column = |column: &ColumnStatistics| {
         column.quantity.name().strip_suffix("_nees_final")?;
         let median = column.quantiles.iter().find(|quantile| quantile.p == 0.5)?;
         overconfident(column.quantity.meaning(), median.value?, median.interval[0])
     };
     let found = analysed.statistics.columns.iter().filter_map(of_column);
-    found.map(|said| Finding::new(Kind::Note, "filter", "filter overconfident", said)).collect()
+    let found = found.map(|said| Finding::new(Kind::Note, "filter", "filter overconfident", said));
+    let mut found: Vec<Finding> = found.collect();
+    found.extend(unknown_to_filters(plan).filter(|_| !found.is_empty()));
+    found
+}
+
+/// The dispersed errors of sensors that no filter estimates: all but the gyro's bias.
+fn unknown_to_filters(plan: &Plan) -> Option<Finding> {
+    let parameters = plan.dispersions.columns().iter().map(|column| column.parameter);
+    let is_unknown = |name: &str| name.starts_with("sensors.") && !name.ends_with(".bias_rad_s");
+    let mut names: Vec<_> = parameters.filter(|of| is_unknown(&of.name())).map(names::of_parameter).collect();
+    names.dedup();
+    let said = Finding::new(Kind::Note, "filter", "dispersed, and known to no filter", names.join(", "));
+    (!names.is_empty()).then_some(Finding { rank: 1, ..said })
 }
 
 /// A warning from the `median` of the column with this `meaning`, whose interval begins at `lower`.

@@ -6,6 +6,7 @@ pub mod checked;
 pub mod compared;
 pub mod comparison;
 pub mod dispersions;
+pub mod driver_sentence;
 pub mod drivers;
 pub mod end;
 pub mod finding;
@@ -46,7 +47,7 @@ pub fn findings(plan: &Plan, analysed: &Analysed, noise: &[NoiseShare]) -> Findi
     list.extend(loss::stop(plan, analysed));
     list.extend(loss::losses(plan, analysed));
     list.extend(loss::missions(plan, analysed));
-    list.extend(loss::notes(analysed));
+    list.extend(loss::notes(plan, analysed));
     list.extend(numerics::beyond_tolerance(plan, analysed));
     // the terminal shows them before the campaign
     let of_plan = |said: String| Finding { rank: 2, ..Finding::new(Kind::Note, "plan", "note", said) };

@@ -9,6 +9,9 @@ use crate::ode::step_control::Controller;
 use crate::ode::system::{System, Tolerance};
 use crate::ode::tableau::Dop853Tableau;
 
+/// Ratio of the error estimate to e5 in a step from an edge ([`StepErrors::from_edge`]), where e3 is 49 times e5.
+const FROM_EDGE: f64 = 0.199;
+
 /// Dormand-Prince 8(5,3) as in DOP853.
 #[derive(Clone, Copy, Debug)]
 pub struct Dop853;
@@ -78,7 +81,8 @@ impl Embedded for Dop853 {
         refined.smaller(longest.splat(100.0) * guess).smaller(longest)
     }
 
-    /// The error combines the embedded solutions of order 5 and 3: e5^2 / sqrt(e5^2 + 0.01 e3^2) (section II.10).
+    /// The error combines the embedded solutions of order 5 and 3: e5^2 / sqrt(e5^2 + 0.01 e3^2) (section II.10). Where
+    /// f is not smooth, a large and smooth e3 would hide e5.
     #[inline(always)]
     fn attempt<R: Real, Q: System<R, N>, const N: usize>(
         system: &Q,
@@ -97,7 +101,7 @@ impl Embedded for Dop853 {
         let sum = e5.mul_add(e5, e5.splat(0.01) * (e3 * e3));
         let ratio = R::select(e5.zero().lt(sum), e5 * (e5 / sum.sqrt()), e5);
         let poison = poison(&fifth, poison(&k[12], poison(&end.state, ratio.zero() * (e5 + e3))));
-        PairAttempt { ratio, poison }
+        PairAttempt { ratio, rough: e5 * e5.splat(FROM_EDGE), poison }
     }
 
     #[inline(always)]

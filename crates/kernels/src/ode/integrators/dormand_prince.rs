@@ -103,7 +103,7 @@ impl<P: PointsInside> Embedded for P {
         let error = scaled(step.length, &weighted(stages, &DormandPrinceTableau::E));
         let ratio = system.error_ratio(&error, &start.state, &end.state, tolerance);
         let poison = poison(&error, poison(&end.state, ratio.zero() * ratio));
-        PairAttempt { ratio, poison }
+        PairAttempt { ratio, rough: ratio, poison }
     }
 
     #[inline(always)]

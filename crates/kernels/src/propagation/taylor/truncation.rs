@@ -158,9 +158,9 @@ impl<R: Real> Truncation<R> {
 impl TruncationSums {
     /// Errors after `steps` steps, repeated in each of `periods` periods; the unit of time is `unit` seconds.
     pub fn errors(&self, steps: u64, periods: f64, unit: f64) -> LocalErrors {
-        let LocalErrors { rounding, attitude, .. } = rounding(steps);
+        let errors = rounding(steps);
         let truncation = periods * self.rate / unit;
-        LocalErrors { truncation, rounding, feedback: 0.0, attitude: periods * (attitude + self.turn) }
+        LocalErrors { truncation, attitude: periods * (errors.attitude + self.turn), ..errors }
     }
 }
 

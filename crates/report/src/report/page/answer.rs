@@ -43,8 +43,11 @@ fn with_keys(said: &str) -> String {
         // escaped quotation marks are no part of a key
         let parts =
             word.split(['&', ';']).map(|part| part.trim_matches(|letter: char| !letter.is_ascii_alphanumeric()));
-        // frames such as F_e are no keys
-        match parts.into_iter().find(|part| part.contains('_') && part.len() > "omega_es".len()) {
+        // frames such as F_e, abbreviations such as e.g. and numbers are no keys
+        let is_name = |word: &str| word.len() > 1 && word.bytes().all(|letter| letter.is_ascii_lowercase());
+        let is_dotted = |part: &str| part.contains('.') && part.split('.').all(is_name);
+        let is_key = |part: &&str| part.contains('_') && part.len() > "omega_es".len() || is_dotted(part);
+        match parts.into_iter().find(is_key) {
             Some(key) => word.replace(key, &format!("<code>{key}</code>")),
             None => word.to_owned(),
         }
@@ -369,6 +372,7 @@ mod tests {
     fn keys_are_code() {
         for (said, html) in [
             ("write body.mass_kg.", "write <code>body.mass_kg</code>."),
+            ("environment.drag acts, e.g. by 0.3", "<code>environment.drag</code> acts, e.g. by 0.3"),
             ("design \"latin_hypercube\"; or", "design &quot;<code>latin_hypercube</code>&quot;; or"),
             ("`a & b` in F_e", "<code>a &amp; b</code> in F_e"),
         ] {
