@@ -81,7 +81,8 @@ fn many_wheels_among_any_runs() {
     });
 }
 
-/// Law: so do runs on orbits about a point mass, circles among others, and about a flattened body, with air and light that turn and move them.
+/// Law: so do runs on orbits about a point mass, circles among them, and about a flattened body, with air and light
+/// that turn and move them.
 #[test]
 fn orbits_among_any_runs() {
     let turning = |forced: bool| {

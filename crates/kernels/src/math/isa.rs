@@ -151,7 +151,7 @@ impl Isa {
         }
     }
 
-    /// Runs `work` in eight lanes, which AVX-512 holds in one register: where operands of sixteen exceed the first cache.
+    /// Runs `work` in eight lanes, one register of AVX-512: where operands of sixteen exceed the first cache.
     pub fn run_eight<W: LaneWork>(self, work: W) -> W::Output {
         dispatch! { self, simd,
             "avx512" as_avx512 => work.run(simd, Lanes::broadcast(simd, 0.0)),

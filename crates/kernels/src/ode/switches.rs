@@ -47,8 +47,7 @@ const DOUBT: f64 = 0.1;
 /// Distance, as a fraction of the step, of the two times from which [`dip`] computes a slope.
 const BESIDE: f64 = 1e-3;
 
-/// Longest step towards an edge, where f is not smooth, as a share of the time to it: the share that a step from an edge
-/// gains on its distance.
+/// Longest step towards an edge, where f is not smooth, as a share of the time to it: graded as steps from an edge are.
 const TOWARDS_EDGE: f64 = 0.4;
 
 /// Pending switches, one run per lane.
