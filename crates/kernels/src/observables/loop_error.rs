@@ -60,8 +60,9 @@ impl LoopError {
         for (own, pilot) in found.pilots.iter_mut().zip(pilots) {
             *own = pilot;
             found.count += 1;
+            let is_one = SAFETY * pilot.error < INACCURATE_STATE;
             // true for NaN
-            found.parts |= !(SAFETY * pilot.error < INACCURATE_STATE);
+            found.parts |= !is_one;
         }
         found
     }

@@ -143,11 +143,6 @@ pub fn add_constant_effects(scene: &Scene, applied: &mut Actuation) {
     }
 }
 
-/// `environment` without the effects already contained in flown arcs.
-pub fn beside_arcs(environment: EnvironmentInput) -> EnvironmentInput {
-    EnvironmentInput { body_torque_n_m: None, ..environment }
-}
-
 /// Upper bound of the torque of the effects on `scene` that are constant over an arc, N m.
 pub fn largest_constant_torque(scene: &Scene) -> f64 {
     scene.environment.body_torque_n_m.map_or(0.0, norm)
