@@ -14,8 +14,8 @@ pub struct CompletedRun<'a> {
     pub table: &'a StateTable,
     /// Its outcome.
     pub outcome: &'a Outcome,
-    /// The arcs in order, without gaps from time zero, with the effects that are constant over an arc. As a schedule,
-    /// with the other effects ([`crate::dynamics::effects::beside_arcs`]), they give the same run.
+    /// The arcs in order, without gaps from time zero, with the effects that are constant over an arc
+    /// (`environment.body_torque_n_m`). As a schedule, with the other effects alone, they give the same run.
     pub arcs: &'a ArcRecord,
 }
 
