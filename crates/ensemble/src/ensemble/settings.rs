@@ -49,7 +49,7 @@ pub fn propagator(plan: &Plan, grid: Grid, fields: StateFields) -> PropagationSe
         Some(law) => {
             let period = law.spec().map_or(f64::INFINITY, |spec| spec.period);
             let settings = settings(fields.union(SEEN_BY_LAWS)).with_feedback(law.commands);
-            settings.in_periods(plan.method, period * fastest(plan))
+            settings.turning_by(plan.method, period * fastest(plan))
         }
         None => settings(fields),
     }

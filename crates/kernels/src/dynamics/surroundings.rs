@@ -202,7 +202,11 @@ impl Surroundings {
             let known = &mut known[(x.to_bits() ^ y.to_bits().rotate_left(9) ^ index as u64) as usize % MOST_KNOWN];
             match known {
                 Some((of, at, segment)) if *at == index && of.key() == self.key() => *segment,
-                _ => known.insert((self.clone(), index, Isa::best().run_narrow(Fit { of: self, index }))).2,
+                _ => {
+                    #[cfg(test)]
+                    tests::BUILT.set(tests::BUILT.get() + 1);
+                    known.insert((self.clone(), index, Isa::best().run_narrow(Fit { of: self, index }))).2
+                }
             }
         })
     }
@@ -345,7 +349,13 @@ impl Work for FieldAt<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{FieldModel, Orbit};
+    use crate::scene::{Actuation, FieldModel, Orbit};
+    use core::cell::Cell;
+
+    thread_local! {
+        /// Segments that this thread has built.
+        pub static BUILT: Cell<u64> = const { Cell::new(0) };
+    }
 
     const MU: f64 = 3.986004418e14;
     const J2: f64 = 1.08262668e-3;
@@ -456,6 +466,24 @@ mod tests {
             let found = times.map(&mut field);
             let alone = times.map(|time| around.segment((time / around.stride).floor()).field(time));
             assert!(found == alone && found[0] != found[1]);
+        }
+    }
+
+    /// Law: runs on one orbit side by side build a segment per stride, however many runs and ticks there are.
+    #[test]
+    fn runs_on_one_orbit_build_a_segment_once() {
+        const STRIDES: u32 = 20;
+        let (around, _) = surroundings(ORBITS[0]);
+        for (runs, ticks) in [(1, 4), (8, 64)] {
+            KNOWN.take();
+            let before = BUILT.get();
+            let mut runs = vec![OfArcs::new(around.clone()); runs];
+            for tick in 0..STRIDES * ticks {
+                let at = |tick: u32| around.stride * f64::from(tick) / f64::from(ticks);
+                let arc = Arc { start: at(tick), applied: Actuation::none(at(tick + 1)) };
+                assert!(runs.iter_mut().all(|run| run.covering(&arc).is_some()));
+            }
+            assert_eq!(BUILT.get() - before, u64::from(STRIDES));
         }
     }
 }

@@ -8,7 +8,7 @@ use crate::ode::Integrator;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Method {
     /// Gyrostat, Taylor series with periodic folding, or what else is the fastest ([`Method::chosen`],
-    /// [`super::PropagationSettings::with_feedback`] and `in_periods`).
+    /// [`super::PropagationSettings::with_feedback`] and `turning_by`).
     Auto,
     /// Gyrostat, Taylor series, order and step from the tolerance (Jorba & Zou 2005).
     Taylor,

@@ -63,7 +63,7 @@ impl PropagationSettings {
     /// method of order five under changing effects if the fifth power of `turn` is below the tolerance: one of its
     /// steps crosses the arc, with a fraction of the tolerance as error.
     #[must_use]
-    pub fn in_periods(self, written: Method, turn: f64) -> Self {
+    pub fn turning_by(self, written: Method, turn: f64) -> Self {
         let is_short = written == Method::Auto
             && self.changes_within_arcs()
             && turn < libm::pow(self.control.tolerance.relative, 0.2);
